@@ -1,4 +1,5 @@
-//! Quantities of a case beside which a value is judged. A value far from them most likely has another unit than its author meant.
+//! Quantities of a case beside which a value is judged. A value far from them most likely has another unit
+//! than its author meant.
 
 /// A quantity of a case, or a range between two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,7 +14,8 @@ pub enum Scale {
     Heights,
     /// The shortest relaxation time and the longest retardation time.
     RelaxationTimes,
-    /// The speeds at which a cell passes in the longest retardation time, and the longer side of the grid in the shortest one.
+    /// The speeds at which a cell passes in the longest retardation time, and the longer side of the grid in
+    /// the shortest one.
     RelaxationSpeeds,
     /// The hardness of the body.
     Hardness,

@@ -1,7 +1,7 @@
 //! Options with a few possible words, each word written in one place.
 
-/// An option with a few possible words. The same words serve case files, the command line, printed output and stored
-/// results.
+/// An option with a few possible words. The same words serve case files, the command line, printed output and
+/// stored results.
 ///
 /// ```
 /// use asperity_base::Choice;

@@ -329,7 +329,8 @@ pub enum Error {
         /// The cause.
         source: Box<Error>,
     },
-    /// An update of a contact that slides in place could not be solved, or its result is no longer a surface or not finite.
+    /// An update of a contact that slides in place could not be solved, or its result is no longer a surface
+    /// or not finite.
     #[error("update {update}: {source}")]
     AtUpdate {
         /// The update, from 1; 0 before the first.
@@ -495,8 +496,8 @@ pub enum Error {
 /// Reason why the load of a pass under one approach is limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum LoadLimit {
-    /// Yielding bodies conform to each other at each position. From there the load no longer grows if one of them takes all
-    /// of the plastic deformation. It grows only as the logarithm of the approach if both do.
+    /// Yielding bodies conform to each other at each position. From there the load no longer grows if one of
+    /// them takes all of the plastic deformation. It grows only as the logarithm of the approach if both do.
     #[error("every cell yields at its first position and carries less load later")]
     Yielded,
     /// Periodic bodies in full contact: their mean displacement is free.

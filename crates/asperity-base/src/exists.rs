@@ -1,8 +1,9 @@
-//! Magnitudes of each physical quantity that exist. A value outside most likely has another unit than its author meant.
+//! Magnitudes of each physical quantity that exist. A value outside most likely has another unit than its
+//! author meant.
 //!
-//! The ranges have a factor of two or more beyond the extremes of data books: Kaye & Laby, Tables of Physical and Chemical
-//! Constants; CRC Handbook of Chemistry and Physics; Ashby, Materials Selection in Mechanical Design. Further sources are named
-//! beside the range.
+//! The ranges have a factor of two or more beyond the extremes of data books: Kaye & Laby, Tables of Physical
+//! and Chemical Constants; CRC Handbook of Chemistry and Physics; Ashby, Materials Selection in Mechanical
+//! Design. Further sources are named beside the range.
 
 use crate::table::Exists::{self, Any, Within};
 
@@ -36,7 +37,8 @@ pub const VOLUME_PER_WORK: Exists = within(
 );
 /// Coefficients of friction.
 ///
-/// Bowden & Tabor, The Friction and Lubrication of Solids: above 3 clean metals in vacuum seize, and nothing slides.
+/// Bowden & Tabor, The Friction and Lubrication of Solids: above 3 clean metals in vacuum seize, and nothing
+/// slides.
 pub const FRICTION: Exists = within(1e-5, 3.0, "graphite without friction to rubber", &[]);
 /// Shear strengths of interfaces.
 pub const SHEAR_STRENGTH: Exists = within(1e2, 2e10, "liquid films to hard metals", &["MPa"]);

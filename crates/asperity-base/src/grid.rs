@@ -25,7 +25,8 @@ pub fn flat<T>(field: &ndarray::Array2<T>) -> &[T] {
     field.as_slice().expect("standard layout")
 }
 
-/// Returns a field in standard layout, in which [`flat`] reads it; a copy of one whose memory has another order.
+/// Returns a field in standard layout, in which [`flat`] reads it; a copy of one whose memory has another
+/// order.
 #[inline]
 pub fn in_rows<T: Clone>(field: &ndarray::Array2<T>) -> Cow<'_, ndarray::Array2<T>> {
     if field.is_standard_layout() {
@@ -35,7 +36,8 @@ pub fn in_rows<T: Clone>(field: &ndarray::Array2<T>) -> Cow<'_, ndarray::Array2<
     }
 }
 
-/// Returns the length of `count` cells, without the rounding of a product where a metre has a whole number of cells.
+/// Returns the length of `count` cells, without the rounding of a product where a metre has a whole number of
+/// cells.
 ///
 /// ```
 /// assert_eq!(asperity_base::grid::length_of(115.0, 5e-7), 5.75e-5);
@@ -142,8 +144,8 @@ impl CellValues {
         }
     }
 
-    /// Returns the values on a grid of about half as many cells along each axis, as means over the fine cells of each
-    /// coarse one.
+    /// Returns the values on a grid of about half as many cells along each axis, as means over the fine cells
+    /// of each coarse one.
     #[inline]
     pub fn coarse(&self) -> Self {
         match self {
@@ -201,8 +203,8 @@ impl Grid {
     /// Creates a grid of `shape` cells of size `pitch`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there are no cells or more than [`MAX_CELLS`], or if a pitch is not positive or is outside
-    /// [`Dimension::range`].
+    /// [`Error::OutOfRange`] if there are no cells or more than [`MAX_CELLS`], or if a pitch is not positive
+    /// or is outside [`Dimension::range`].
     pub fn new(shape: [usize; 2], pitch: [Metre; 2]) -> Result<Self> {
         if shape.contains(&0) {
             return Err(Error::OutOfRange {

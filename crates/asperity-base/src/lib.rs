@@ -1,5 +1,5 @@
-//! The ground on which the crates of asperity stand: units, grids, errors, options with words, files, shared mathematics,
-//! and ranks.
+//! The ground on which the crates of asperity stand: units, grids, errors, options with words, files, shared
+//! mathematics, and ranks.
 //!
 //! Use it through [`asperity-surface`](https://docs.rs/asperity-surface) for topographies, or through
 //! [`asperity`](https://docs.rs/asperity) for contacts. They re-export what their users need.

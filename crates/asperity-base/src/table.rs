@@ -1,8 +1,8 @@
-//! Tables of keys, such as those of a case file: each key is declared once, with its name, the accepted values, the default, an
-//! example and the meaning.
+//! Tables of keys, such as those of a case file: each key is declared once, with its name, the accepted
+//! values, the default, an example and the meaning.
 //!
-//! The reader of a table, its messages, documentation, schema and units are derived from the declaration. A struct whose fields are the
-//! keys of a table derives [`Table`] with `asperity-derive`.
+//! The reader of a table, its messages, documentation, schema and units are derived from the declaration. A
+//! struct whose fields are the keys of a table derives [`Table`] with `asperity-derive`.
 
 use std::fmt;
 
@@ -17,7 +17,8 @@ use crate::units::{Dimension, Range};
 pub struct Section {
     /// The dotted names of the tables: `lower.film`, `upper.film`; empty for the keys above all tables.
     pub tables: &'static [&'static str],
-    /// The choice that gives the keys a meaning, as in a case file: `form = "sphere"`; empty if they always have one.
+    /// The choice that gives the keys a meaning, as in a case file: `form = "sphere"`; empty if they always
+    /// have one.
     pub kind: &'static str,
     /// The keys, in the order of the documentation.
     pub keys: &'static [Key],
@@ -93,7 +94,8 @@ choice!(Spacing: "log" => Log, "linear" => Linear);
 /// The form of several values.
 pub const SEVERAL: &str = "list of at least one value, or a [table](#a-sweep)";
 
-/// The accepted numbers, in addition to the limits of [`Dimension::range`] and [`NUMBERS`](crate::units::NUMBERS).
+/// The accepted numbers, in addition to the limits of [`Dimension::range`] and
+/// [`NUMBERS`](crate::units::NUMBERS).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bounds {
     /// All finite numbers.
@@ -157,7 +159,8 @@ pub trait Table: Sized {
     /// The keys of the fields, in their order. Those of a [`Part`] come in addition.
     const KEYS: &'static [Key];
 
-    /// Returns the section of all keys of the table, then those of the keys that only a choice gives a meaning.
+    /// Returns the section of all keys of the table, then those of the keys that only a choice gives a
+    /// meaning.
     fn sections() -> Vec<Section>;
 
     /// Reads the keys of a table.
@@ -173,9 +176,11 @@ pub trait Table: Sized {
     fn check(&self) -> Result<()>;
 }
 
-/// Keys that stand together in a table: some of its keys, one of several keys, or a choice with the keys that it gives a meaning.
+/// Keys that stand together in a table: some of its keys, one of several keys, or a choice with the keys that
+/// it gives a meaning.
 pub trait Part: Sized {
-    /// Whether one of the keys chooses which others have a meaning, so that the part itself refuses those that have none.
+    /// Whether one of the keys chooses which others have a meaning, so that the part itself refuses those
+    /// that have none.
     const CHOOSES: bool;
 
     /// Returns the keys that have a meaning in any case.
@@ -223,7 +228,8 @@ pub trait Source {
 
 /// A value at its place. Each method fails for a value of another kind, or one that the key does not accept.
 pub trait Value {
-    /// Reads a number, or a quantity in SI, within the bounds of its kind, which a key of [`Kind::Other`] does not have itself.
+    /// Reads a number, or a quantity in SI, within the bounds of its kind, which a key of [`Kind::Other`]
+    /// does not have itself.
     ///
     /// # Errors
     /// As all methods.
@@ -295,8 +301,9 @@ pub trait Value {
     /// As all methods.
     fn items(&self, expected: &str) -> Result<Vec<Box<dyn Value + '_>>>;
 
-    /// Reads a list of at least one number or vector of a kind, or a table that gives it by `from`, `to` and `points`, at a `spacing` unless
-    /// it says otherwise. `example` is one of them. A number is the first of two.
+    /// Reads a list of at least one number or vector of a kind, or a table that gives it by `from`, `to` and
+    /// `points`, at a `spacing` unless it says otherwise. `example` is one of them. A number is the first of
+    /// two.
     ///
     /// # Errors
     /// As all methods.
@@ -478,7 +485,8 @@ pub struct Rule<F> {
     pub this: &'static str,
     /// The entry that excludes it, in Markdown.
     pub with: &'static str,
-    /// The message of the error. `{key}` stands for the key that it points to, `{path}` for its dotted name, `{value}` for its value.
+    /// The message of the error. `{key}` stands for the key that it points to, `{path}` for its dotted name,
+    /// `{value}` for its value.
     pub message: &'static str,
     /// The hint; empty if the message is enough.
     pub hint: &'static str,

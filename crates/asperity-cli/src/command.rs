@@ -53,7 +53,8 @@ pub(crate) enum Command {
     Report(Report),
     /// Compare the solvers with closed forms
     ///
-    /// Prints the errors of each case on successively finer grids, and the order of convergence. The exit code is 1 if a case fails.
+    /// Prints the errors of each case on successively finer grids, and the order of convergence. The exit
+    /// code is 1 if a case fails.
     Verify,
     Materials(Materials),
     Paper(Paper),

@@ -37,11 +37,11 @@ pub use verify::{
     expected as verification_expects, text as verification_text, verdict as verification_verdict,
 };
 
-/// Runs the command with these `arguments`, the first of which is its name. Returns its exit code: 0 for success, 1
-/// if the computation failed, 2 for bad input, 130 after Ctrl-C.
+/// Runs the command with these `arguments`, the first of which is its name. Returns its exit code: 0 for
+/// success, 1 if the computation failed, 2 for bad input, 130 after Ctrl-C.
 ///
-/// It is the main function of a process. It prints, handles Ctrl-C, configures the threads of the process, and ends
-/// the process after `--help` or an invalid argument.
+/// It is the main function of a process. It prints, handles Ctrl-C, configures the threads of the process,
+/// and ends the process after `--help` or an invalid argument.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     signals::survive_size_limit();
     match command(arguments) {

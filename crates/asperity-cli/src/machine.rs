@@ -35,8 +35,8 @@ pub(crate) fn holds(needed: f64) -> Result<()> {
     if needed <= available { Ok(()) } else { Err(Error::Memory { needed, available }) }
 }
 
-/// Returns the bytes available to this process: memory and swap of the machine or its container, up to the limit of
-/// its address space (`ulimit -v`).
+/// Returns the bytes available to this process: memory and swap of the machine or its container, up to the
+/// limit of its address space (`ulimit -v`).
 pub fn available() -> f64 {
     address_space().map_or(f64::INFINITY, |bytes| bytes as f64).min(on_machine())
 }

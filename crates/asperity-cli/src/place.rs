@@ -1,4 +1,5 @@
-//! Interpretation of a path: a case file, a study file, results, a folder with one of them, or a topography instead.
+//! Interpretation of a path: a case file, a study file, results, a folder with one of them, or a topography
+//! instead.
 
 use std::path::{Path, PathBuf};
 
@@ -10,8 +11,8 @@ use asperity::surface::ReadOptions;
 
 use crate::report::{Failure, Outcome};
 
-/// Loads a case file for the command of that name. The error for a study file or a folder says which of them the path
-/// is.
+/// Loads a case file for the command of that name. The error for a study file or a folder says which of them
+/// the path is.
 pub(crate) fn case(path: &Path, command: &str) -> Outcome<Case> {
     Case::load(path).map_err(|error| match instead_of_a_case(path, command) {
         Some((message, hint)) => Failure::usage(message, hint.as_deref()),
@@ -48,7 +49,8 @@ pub(crate) fn shown(path: &Path) -> String {
     if text.chars().all(is_plain) { text } else { format!("\"{text}\"") }
 }
 
-/// Opens a results directory for the command of that name. If the folder contains results, the hint names them.
+/// Opens a results directory for the command of that name. If the folder contains results, the hint names
+/// them.
 pub(crate) fn results(path: &Path, command: &str) -> Outcome<Results> {
     Results::open(path).map_err(|error| {
         let inner = path.join("results");
@@ -86,7 +88,8 @@ fn instead_of_a_case(path: &Path, command: &str) -> Option<(String, Option<Strin
     })
 }
 
-/// Returns the message and the hint for a file that is a topography, or one of another program, where a text is `expected`.
+/// Returns the message and the hint for a file that is a topography, or one of another program, where a text
+/// is `expected`.
 fn instead_of_text(path: &Path, content: &[u8], expected: &str) -> Option<(String, Option<String>)> {
     let name = path.display();
     let (format, heights) = match ReadOptions::default().scan_bytes(path, content) {

@@ -93,8 +93,8 @@ pub enum Program {
     Rank(usize),
 }
 
-/// Writes an error of the library with its place and its hint to stderr, and returns the exit code: 1 if the computation failed,
-/// 2 if the input is bad, 130 if it was interrupted.
+/// Writes an error of the library with its place and its hint to stderr, and returns the exit code: 1 if the
+/// computation failed, 2 if the input is bad, 130 if it was interrupted.
 pub fn report_error(error: Error, program: Program) -> u8 {
     let failure = Failure::Library(error);
     report(&failure, program);
@@ -199,7 +199,8 @@ fn render(failure: &Failure, program: Program, renderer: &Renderer) -> String {
     let hint = hint.map(|hint| clipped(&hint));
     let hint = hint.map(|hint| Group::with_title(Level::HELP.with_name("hint").secondary_title(hint)));
     match (failure, hint) {
-        // Below a line of the case the renderer continues the margin, which would start nowhere without that line.
+        // Below a line of the case the renderer continues the margin, which would start nowhere without that
+        // line.
         (Failure::Library(Error::Case(case)), hint) => {
             let lines = lines(case);
             let title = title.element(place(case, &lines));
@@ -242,8 +243,8 @@ fn lines(case: &CaseError) -> Range<usize> {
     begin..end
 }
 
-/// Returns the faulty lines. If they are too many or too long, or if something is missing from the whole file,
-/// returns only the place.
+/// Returns the faulty lines. If they are too many or too long, or if something is missing from the whole
+/// file, returns only the place.
 fn place<'a>(case: &'a CaseError, lines: &Range<usize>) -> annotate_snippets::Element<'a> {
     let file = clipped(&case.file.to_string_lossy());
     if case.span == (0..0) {
@@ -259,7 +260,8 @@ fn place<'a>(case: &'a CaseError, lines: &Range<usize>) -> annotate_snippets::El
     Snippet::source(text).line_start(case.line).path(file).annotation(annotation).into()
 }
 
-/// Returns the hint of `asperity-mpi` if that of the command does not apply: it cannot resume, and has one thread.
+/// Returns the hint of `asperity-mpi` if that of the command does not apply: it cannot resume, and has one
+/// thread.
 fn hint_on_ranks(error: &Error, program: Program) -> Option<Option<String>> {
     let Program::Rank(_) = program else { return None };
     Some(match error {

@@ -12,8 +12,8 @@ pub(crate) struct Stop(Arc<AtomicBool>);
 
 impl Stop {
     /// Handles Ctrl-C from now on. If `patient`, the first one requests a stop and the second one ends the
-    /// process; otherwise the first one ends it. Files are complete at any moment, because every file is written
-    /// under a temporary name.
+    /// process; otherwise the first one ends it. Files are complete at any moment, because every file is
+    /// written under a temporary name.
     pub(crate) fn at_ctrl_c(patient: bool) -> Self {
         let stop = Self(Arc::new(AtomicBool::new(false)));
         let heard = stop.clone();

@@ -11,9 +11,11 @@ use crate::report::note;
 /// Largest number of threads.
 pub const MAX_THREADS: usize = 1024;
 
-/// Creates this number of threads, by default those available to this process. The first of them is the calling thread.
+/// Creates this number of threads, by default those available to this process. The first of them is the
+/// calling thread.
 pub(crate) fn start(wanted: Option<usize>) -> Result<()> {
-    // Rayon takes its own variable, the affinity of the process and the limit of its control group into account.
+    // Rayon takes its own variable, the affinity of the process and the limit of its control group into
+    // account.
     let cores = available_parallelism().map_or(1, usize::from);
     if let Some(wanted) = wanted.filter(|wanted| *wanted > cores) {
         note(&format!(
@@ -27,7 +29,8 @@ pub(crate) fn start(wanted: Option<usize>) -> Result<()> {
     pool.build_global().map_err(|error| Error::Threads { reason: error.to_string() })
 }
 
-/// Returns the cores of a SLURM task. Without a number for the task, returns the cores of the job on this machine.
+/// Returns the cores of a SLURM task. Without a number for the task, returns the cores of the job on this
+/// machine.
 fn share_of_scheduler(variable: impl Fn(&str) -> Option<String>) -> Option<usize> {
     let count = |name| variable(name)?.trim().parse().ok().filter(|count| *count >= 1);
     count("SLURM_CPUS_PER_TASK").or_else(|| count("SLURM_CPUS_ON_NODE"))

@@ -1,5 +1,5 @@
-//! A pass of two rough steel bodies, with 64 × 64 cells at 127 positions and with 256 × 256 cells at 128: its contacts, and
-//! their flash temperatures.
+//! A pass of two rough steel bodies, with 64 × 64 cells at 127 positions and with 256 × 256 cells at 128: its
+//! contacts, and their flash temperatures.
 
 use asperity_contact::Grid;
 use asperity_contact::material::Material;
@@ -51,8 +51,8 @@ fn heated(contact: &Contact, width: usize) -> (Vec<u32>, Vec<u32>, Vec<f64>) {
     (moved(contact.position.lower), moved(contact.position.upper), flux)
 }
 
-/// Steel with a hardness of 4 GPa and a roughness of 0.1 µm with waves down to eight cells, under a mean pressure of 100
-/// MPa.
+/// Steel with a hardness of 4 GPa and a roughness of 0.1 µm with waves down to eight cells, under a mean
+/// pressure of 100 MPa.
 fn simulation(side: usize, stride: usize) -> Simulation {
     let grid = Grid::new([side; 2], [PITCH; 2]).expect("a grid");
     let rough = SelfAffine {

@@ -1,5 +1,5 @@
-//! Contacts on a GPU: agreement with the processor, time and memory. Run by `benches/gpu/device.sh`, which takes the program to
-//! a machine with a device.
+//! Contacts on a GPU: agreement with the processor, time and memory. Run by `benches/gpu/device.sh`, which
+//! takes the program to a machine with a device.
 //!
 //! Arguments are the parts to run: `agree`, `periodic`, `free`, `pass`, `challenge`; all without one.
 

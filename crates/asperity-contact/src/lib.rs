@@ -10,14 +10,16 @@
 //! stress     σ   positive in tension; z then points from the surface into the loaded body
 //! ```
 //!
-//! Everything is SI and `f64`. Single precision is used only inside iterations. The lower body is described by the height
-//! of its surface, the upper one by the height of its underside. The undeformed gap is `h = z₂ − z₁`.
+//! Everything is SI and `f64`. Single precision is used only inside iterations. The lower body is described
+//! by the height of its surface, the upper one by the height of its underside. The undeformed gap is
+//! `h = z₂ − z₁`.
 //!
 //! # Where to begin
 //!
-//! Start with [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, or [`solver::solve_normal`] for a
-//! contact given only by its gap. Materials, kernels, operators, solvers and closed forms are the modules of [`asperity_elastic`].
-//! Topographies are in [`asperity_surface`]; case files and results on disk are in `asperity-study`.
+//! Start with [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, or
+//! [`solver::solve_normal`] for a contact given only by its gap. Materials, kernels, operators, solvers and
+//! closed forms are the modules of [`asperity_elastic`]. Topographies are in [`asperity_surface`]; case files
+//! and results on disk are in `asperity-study`.
 //!
 //! | you have | use | you get |
 //! |---|---|---|

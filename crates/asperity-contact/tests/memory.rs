@@ -89,7 +89,8 @@ fn no_field_is_allocated_from_step_to_step() {
         let mut operator = Operators::new(square(), 1.0, boundary).on([SIDE; 2]);
         let gap = rough(operator.grid());
         let start = solve(operator.as_mut(), &gap, 0.002, None, 1e-6).pressure;
-        // Tolerances that need double precision equally often: the scratch memory of the transforms changes with them.
+        // Tolerances that need double precision equally often: the scratch memory of the transforms changes
+        // with them.
         let [few, many] = [1e-1, 5e-3].map(|tolerance| {
             let before = CALLS.load(Relaxed);
             let solution = solve(operator.as_mut(), &gap, 0.01, Some(&start), tolerance);

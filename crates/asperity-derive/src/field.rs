@@ -224,7 +224,8 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// The statement that reads the field from `source` into a variable of its name, by its declaration `key`.
+    /// The statement that reads the field from `source` into a variable of its name, by its declaration
+    /// `key`.
     pub(crate) fn reader(&self, key: &TokenStream) -> TokenStream {
         let (name, of) = (&self.name, self.of);
         if self.part().is_some() {

@@ -1,7 +1,8 @@
 //! Derives of the crates of asperity.
 //!
-//! [`derive@Table`] makes a struct the dictionary of a table of keys: its fields are the keys, their documentation is that of the keys.
-//! The declaration of the table and its reader follow from them. [`derive@Part`] does the same for keys that stand together in a table.
+//! [`derive@Table`] makes a struct the dictionary of a table of keys: its fields are the keys, their
+//! documentation is that of the keys. The declaration of the table and its reader follow from them.
+//! [`derive@Part`] does the same for keys that stand together in a table.
 
 mod field;
 mod part;
@@ -47,20 +48,24 @@ use syn::{DeriveInput, parse_macro_input};
 /// | `special = reader, form = "…"` | values that a function reads, of a `dimension`, if any |
 /// | `part` | the keys of a type that derives [`derive@Part`]; an `Option` of it is `None` if none of them is given |
 ///
-/// `range` is a variant of `Bounds`. A field that is an `Option` is `None` without the key. Any other field has a `default`, or its key must
-/// be given. A default is an expression as a case file writes it; `written = "\"5 nm\""` writes it with a unit. The `written` value of an
-/// `Option` is the one that the reader of the whole case puts in place of `None`. `absent` describes in words what holds without the key.
-/// `exists` is an expression of the type `Exists`, `beside` an array of the type `Beside`. A key has a meaning only `with = ["file"]`, one of several kinds, if it names them.
+/// `range` is a variant of `Bounds`. A field that is an `Option` is `None` without the key. Any other field
+/// has a `default`, or its key must be given. A default is an expression as a case file writes it;
+/// `written = "\"5 nm\""` writes it with a unit. The `written` value of an `Option` is the one that the
+/// reader of the whole case puts in place of `None`. `absent` describes in words what holds without the key.
+/// `exists` is an expression of the type `Exists`, `beside` an array of the type `Beside`. A key has a
+/// meaning only `with = ["file"]`, one of several kinds, if it names them.
 ///
-/// `#[table("output", default)]` also implements `Default`, for a table all of whose keys have a default. `#[table("…", check = function)]`
-/// names a function that gets the struct and the source, and returns an error for values that do not go together.
+/// `#[table("output", default)]` also implements `Default`, for a table all of whose keys have a default.
+/// `#[table("…", check = function)]` names a function that gets the struct and the source, and returns an
+/// error for values that do not go together.
 #[proc_macro_derive(Table, attributes(table, key))]
 pub fn table(input: TokenStream) -> TokenStream {
     let input = parse_macro_input!(input as DeriveInput);
     table::derive(&input).unwrap_or_else(|error| error.to_compile_error()).into()
 }
 
-/// Implements `asperity_base::table::Part`: keys that stand together in a table, the fields of a struct or the variants of an enum.
+/// Implements `asperity_base::table::Part`: keys that stand together in a table, the fields of a struct or
+/// the variants of an enum.
 ///
 /// ```text
 /// #[derive(Part)]                                        all of them

@@ -218,8 +218,8 @@ fn named(ident: &Ident, fields: &[Field<'_>]) -> Result<(TokenStream, TokenStrea
     ))
 }
 
-/// The implementation of a part, which may be a choice, with the declarations of the own keys, the statements that add
-/// keys and sections, and the bodies of its reader and its check.
+/// The implementation of a part, which may be a choice, with the declarations of the own keys, the statements
+/// that add keys and sections, and the bodies of its reader and its check.
 ///
 /// The source has a name that no key has, because the keys are variables beside it.
 fn implementation(
@@ -274,7 +274,8 @@ fn numbered<'f, 'a>(fields: &'f [Field<'a>]) -> impl Iterator<Item = (usize, &'f
     })
 }
 
-/// The statements that add the keys of fields to `keys`, from the `list` of their own keys and from their parts.
+/// The statements that add the keys of fields to `keys`, from the `list` of their own keys and from their
+/// parts.
 pub(crate) fn keys(fields: &[Field<'_>], list: &TokenStream) -> TokenStream {
     let each = numbered(fields).filter(|(_, field)| field.with.is_empty());
     let each = each.map(|(index, field)| match field.part() {
@@ -284,8 +285,8 @@ pub(crate) fn keys(fields: &[Field<'_>], list: &TokenStream) -> TokenStream {
     each.collect()
 }
 
-/// The statements that add to `sections` the keys that have a meaning only with a choice, in these `tables`: those of parts, then those of
-/// the fields that name it.
+/// The statements that add to `sections` the keys that have a meaning only with a choice, in these `tables`:
+/// those of parts, then those of the fields that name it.
 pub(crate) fn sections(fields: &[Field<'_>], list: &TokenStream, tables: &TokenStream) -> TokenStream {
     let parts = fields.iter().filter_map(Field::part);
     let parts = parts

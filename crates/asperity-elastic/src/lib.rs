@@ -1,5 +1,5 @@
-//! Contact of elastic half-spaces by the boundary element method: influence coefficients, operators, solvers with a residual, and closed
-//! forms. A contact is given by its gap.
+//! Contact of elastic half-spaces by the boundary element method: influence coefficients, operators, solvers
+//! with a residual, and closed forms. A contact is given by its gap.
 //!
 //! # Conventions
 //!

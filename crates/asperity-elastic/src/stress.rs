@@ -57,16 +57,16 @@ impl Stress {
         [self.xx, self.yy, self.zz, self.yz, self.xz, self.xy]
     }
 
-    /// Von Mises' equivalent stress, √(½[(σxx − σyy)² + (σyy − σzz)² + (σzz − σxx)²] + 3(σyz² + σxz² + σxy²)). Yield begins
-    /// when it reaches the yield stress in tension.
+    /// Von Mises' equivalent stress, √(½[(σxx − σyy)² + (σyy − σzz)² + (σzz − σxx)²] + 3(σyz² + σxz² +
+    /// σxy²)). Yield begins when it reaches the yield stress in tension.
     pub fn von_mises(&self) -> Pascal {
         let square = |v: f64| v * v;
         let normal = square(self.xx - self.yy) + square(self.yy - self.zz) + square(self.zz - self.xx);
         (0.5 * normal + 3.0 * (square(self.yz) + square(self.xz) + square(self.xy))).sqrt()
     }
 
-    /// Returns the deviator in an orthonormal basis of five, (σxx − σyy)/√2, √(3/2) s_zz, √2 σxy, √2 σyz, √2 σxz, and the
-    /// hydrostatic stress, a third of the trace.
+    /// Returns the deviator in an orthonormal basis of five, (σxx − σyy)/√2, √(3/2) s_zz, √2 σxy, √2 σyz, √2
+    /// σxz, and the hydrostatic stress, a third of the trace.
     #[inline]
     pub fn split(&self) -> ([Pascal; 5], Pascal) {
         const ROOT: f64 = std::f64::consts::SQRT_2;
@@ -100,8 +100,8 @@ impl Stress {
         principal
     }
 
-    /// Largest shear stress on any plane, ½(σ₁ − σ₃), used in Tresca's criterion. It lies between ½ and 1/√3 of von Mises'
-    /// stress.
+    /// Largest shear stress on any plane, ½(σ₁ − σ₃), used in Tresca's criterion. It lies between ½ and 1/√3
+    /// of von Mises' stress.
     pub fn max_shear(&self) -> Pascal {
         let [most, _, least] = self.principal();
         0.5 * (most - least)

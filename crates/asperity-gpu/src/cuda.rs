@@ -1,8 +1,8 @@
-//! GPUs of NVIDIA. It is the only file with unsafe code: it calls the driver, NVRTC and cuFFT, which are loaded when a device
-//! is opened.
+//! GPUs of NVIDIA. It is the only file with unsafe code: it calls the driver, NVRTC and cuFFT, which are
+//! loaded when a device is opened.
 //!
-//! All work is in one stream, in order. Each kernel runs on a fixed number of blocks, which merge their sums in a fixed
-//! order, so that results do not depend on the run.
+//! All work is in one stream, in order. Each kernel runs on a fixed number of blocks, which merge their sums
+//! in a fixed order, so that results do not depend on the run.
 
 use std::collections::BTreeMap;
 use std::ffi::c_void;
@@ -99,7 +99,8 @@ impl Cuda {
     /// Opens the first GPU.
     pub(crate) fn open() -> Result<Self> {
         let none = |found: String| Error::NoDevice { device: "cuda", found };
-        // SAFETY: only libraries of CUDA are opened, whose initialisers are those of any program that uses them.
+        // SAFETY: only libraries of CUDA are opened, whose initialisers are those of any program that uses
+        // them.
         let present = unsafe {
             [
                 ("driver (libcuda)", driver_sys::is_culib_present()),
@@ -395,7 +396,8 @@ impl Device for Cuda {
             BLOCKS,
             &[arg(&buffer.at), arg(&waves), arg(&side), arg(&factor)],
         )?;
-        // SAFETY: the area is as large as the plan asked for; the plan is for the buffer in place, of this precision.
+        // SAFETY: the area is as large as the plan asked for; the plan is for the buffer in place, of this
+        // precision.
         let done = unsafe {
             fft::set_work_area(plan.handle, work.at as *mut c_void).and_then(|()| match precision {
                 Precision::Double => fft::exec_z2d(plan.handle, buffer.at as *mut _, buffer.at as *mut _),
@@ -487,8 +489,8 @@ impl Cuda {
     /// Starts a kernel.
     fn launch(&self, kernels: &Kernels, name: &str, blocks: u32, arguments: &[*mut c_void]) -> Result<()> {
         let mut arguments = arguments.to_vec();
-        // SAFETY: each call passes the arguments that the kernel of this name has, of the same types; memory that it reaches
-        // is that of the fields, and is freed after the kernel by a call that waits.
+        // SAFETY: each call passes the arguments that the kernel of this name has, of the same types; memory
+        // that it reaches is that of the fields, and is freed after the kernel by a call that waits.
         let launched = unsafe {
             driver::launch_kernel(
                 kernels[name].cu_function(),
@@ -639,7 +641,8 @@ pub(crate) struct CudaFields {
     set: Memory,
     buffer: Memory,
     work: Memory,
-    /// Plans in single precision, there and back, and those in double precision if that is the precision of the pressure.
+    /// Plans in single precision, there and back, and those in double precision if that is the precision of
+    /// the pressure.
     plans: Vec<Plan>,
     parts: Memory,
     results: Memory,
@@ -674,8 +677,8 @@ impl CudaFields {
         let plans: Vec<Plan> = kinds.iter().map(plan).collect::<Result<_>>()?;
         let work = cuda.memory(plans.iter().map(|plan| plan.work).max().unwrap_or(0))?;
         for plan in &plans {
-            // SAFETY: the area is as large as the largest that a plan asked for, and lives as long as the fields, which alone
-            // use the plans meanwhile.
+            // SAFETY: the area is as large as the largest that a plan asked for, and lives as long as the
+            // fields, which alone use the plans meanwhile.
             cuda.checked(unsafe { fft::set_work_area(plan.handle, work.at as *mut c_void) })?;
         }
         let state = || cuda.memory(cells * bytes(precision));
@@ -794,7 +797,8 @@ impl CudaFields {
         self.run(name, &all)
     }
 
-    /// Starts a kernel on the cells, and returns its results, of which the first `sums` are sums and the others largest values.
+    /// Starts a kernel on the cells, and returns its results, of which the first `sums` are sums and the
+    /// others largest values.
     fn sums<const N: usize>(&self, name: &str, sums: i32, arguments: &[*mut c_void]) -> Result<[f64; N]> {
         let all: Vec<_> = arguments.iter().copied().chain([arg(&self.parts.at)]).collect();
         self.on_cells(name, &all)?;

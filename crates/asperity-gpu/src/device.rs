@@ -47,7 +47,8 @@ impl Device {
     /// Opens the first GPU of NVIDIA.
     ///
     /// # Errors
-    /// [`asperity_base::Error::NoDevice`] with what was found, also if the program was built without the feature `cuda`.
+    /// [`asperity_base::Error::NoDevice`] with what was found, also if the program was built without the
+    /// feature `cuda`.
     pub fn cuda() -> Result<Self> {
         #[cfg(feature = "cuda")]
         return Cuda::open().map(|cuda| Self(Kind::Cuda(cuda)));
@@ -73,8 +74,9 @@ impl Device {
     /// Solves contacts.
     ///
     /// # Errors
-    /// [`asperity_base::Error::NotConverged`], [`asperity_base::Error::Interrupted`], [`asperity_base::Error::DeviceMemory`],
-    /// [`asperity_base::Error::DeviceFailed`], [`asperity_base::Error::OutOfRange`] for results that are not finite.
+    /// [`asperity_base::Error::NotConverged`], [`asperity_base::Error::Interrupted`],
+    /// [`asperity_base::Error::DeviceMemory`], [`asperity_base::Error::DeviceFailed`],
+    /// [`asperity_base::Error::OutOfRange`] for results that are not finite.
     ///
     /// # Panics
     /// If there is no contact or no grid, or if a contact is larger than the transforms of its grid.
@@ -88,8 +90,9 @@ impl Device {
         on!(self, device => solve(device, problem, watch))
     }
 
-    /// Solves the elastic contact of a rough surface that is made on the device, under a mean pressure. `grids` are those of
-    /// [`Problem`], periodic; `histogram` is the largest pressure of the histogram and its number of bins.
+    /// Solves the elastic contact of a rough surface that is made on the device, under a mean pressure.
+    /// `grids` are those of [`Problem`], periodic; `histogram` is the largest pressure of the histogram and
+    /// its number of bins.
     ///
     /// # Errors
     /// The errors of [`Device::solve`].
@@ -119,8 +122,8 @@ impl Device {
         on!(self, device => gap_of(device, rough, level))
     }
 
-    /// Returns the time, s, of a convolution on a periodic grid with `side` cells along each axis, in single and in double
-    /// precision, without the rest of an iteration: the mean of `times`.
+    /// Returns the time, s, of a convolution on a periodic grid with `side` cells along each axis, in single
+    /// and in double precision, without the rest of an iteration: the mean of `times`.
     ///
     /// # Errors
     /// [`asperity_base::Error::DeviceMemory`], [`asperity_base::Error::DeviceFailed`].
@@ -210,16 +213,16 @@ fn time_of_convolutions<D: fields::Device>(
     Ok([mean(true)?, mean(false)?])
 }
 
-/// Returns an upper bound of the memory, bytes, that contacts of `cells` cells in all take on a device, with transforms of
-/// `padded` values in all. `caps_differ` says whether the upper bounds differ between cells, `tables` how many tables of the
-/// displacement there are.
+/// Returns an upper bound of the memory, bytes, that contacts of `cells` cells in all take on a device, with
+/// transforms of `padded` values in all. `caps_differ` says whether the upper bounds differ between cells,
+/// `tables` how many tables of the displacement there are.
 pub fn memory(cells: f64, padded: f64, caps_differ: bool, tables: usize, precision: Precision) -> f64 {
     let state = match precision {
         Precision::Double => 8.0,
         Precision::Single => 4.0,
     };
-    // Pressure, h + u, gap, last feasible pressure and bounds; direction and set; buffer and work area; a quarter for each
-    // table; the pressure of the next coarser grid.
+    // Pressure, h + u, gap, last feasible pressure and bounds; direction and set; buffer and work area; a
+    // quarter for each table; the pressure of the next coarser grid.
     let fields = if caps_differ { 5.0 } else { 4.0 };
     cells * (fields * state + 5.0 + 0.25 * state) + padded * state * (2.0 + 0.25 * tables as f64)
 }

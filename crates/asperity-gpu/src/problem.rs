@@ -9,8 +9,8 @@ use asperity_base::units::{Metre, Pascal};
 pub struct Problem<'a> {
     /// The contacts. They share the approach, and carry the load together.
     pub contacts: &'a [Contact<'a>],
-    /// The grid of these contacts and the next coarser ones, from fine to coarse, as many as serve a first guess. Each has
-    /// half as many cells along each axis as the one before, rounded up.
+    /// The grid of these contacts and the next coarser ones, from fine to coarse, as many as serve a first
+    /// guess. Each has half as many cells along each axis as the one before, rounded up.
     pub grids: &'a [Level],
     /// The load or the approach of the bodies.
     pub control: Control,
@@ -49,19 +49,22 @@ pub enum Control {
     Approach(Metre),
 }
 
-/// Precision of pressure, gap and displacement. Search directions and their transforms are in single precision.
+/// Precision of pressure, gap and displacement. Search directions and their transforms are in single
+/// precision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Precision {
     /// Double precision. The residual is that of a convolution in double precision.
     #[default]
     Double,
-    /// Single precision, with sums in double precision. It takes half of the memory, and reaches a residual of about 10⁻⁴.
+    /// Single precision, with sums in double precision. It takes half of the memory, and reaches a residual
+    /// of about 10⁻⁴.
     Single,
 }
 
 /// A grid with the displacement of the bodies under pressure.
 pub struct Level {
-    /// Size of the transforms along x and y: at least the shape of each contact, and twice that along a free axis.
+    /// Size of the transforms along x and y: at least the shape of each contact, and twice that along a free
+    /// axis.
     pub padded: [usize; 2],
     /// Size of a cell along x and y, m.
     pub pitch: [Metre; 2],
@@ -75,7 +78,8 @@ pub struct Level {
 pub enum Compliance {
     /// The displacement of the [`Harmonics`], along two periodic axes. The mean displacement is 0.
     Harmonic,
-    /// The displacement at the distance of `[i, j]` cells per unit pressure on a cell, m/Pa, up to half of the padded shape.
+    /// The displacement at the distance of `[i, j]` cells per unit pressure on a cell, m/Pa, up to half of
+    /// the padded shape.
     Influence(Field),
 }
 
@@ -83,8 +87,9 @@ pub enum Compliance {
 pub enum Harmonics {
     /// 2/(E* |q|) for the composite modulus E* of half-spaces.
     HalfSpaces(Pascal),
-    /// The displacement per unit pressure, m/Pa, > 0, of the frequencies up to half of the padded shape along x and y, as
-    /// rows of one x. In place of the uniform pressure, the first is a wave as long as a cell along x.
+    /// The displacement per unit pressure, m/Pa, > 0, of the frequencies up to half of the padded shape along
+    /// x and y, as rows of one x. In place of the uniform pressure, the first is a wave as long as a cell
+    /// along x.
     Table(Field),
 }
 
@@ -103,8 +108,9 @@ pub struct Solution {
     pub cost: Cost,
 }
 
-/// A periodic self-affine surface that is made on the device, and never leaves it. Its waves have random amplitudes and
-/// phases, which depend on the seed and on the number of waves along x and y: on a finer grid it is the same surface.
+/// A periodic self-affine surface that is made on the device, and never leaves it. Its waves have random
+/// amplitudes and phases, which depend on the seed and on the number of waves along x and y: on a finer grid
+/// it is the same surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rough {
     /// Number of cells along x and y, the same, an even number.
@@ -132,8 +138,8 @@ pub struct Statistics {
     pub mean_gap: Metre,
     /// Largest pressure, Pa.
     pub max_pressure: Pascal,
-    /// Number of cells in contact by pressure: bins of the same width from 0 to the pressure asked for. Those above are in
-    /// the last.
+    /// Number of cells in contact by pressure: bins of the same width from 0 to the pressure asked for. Those
+    /// above are in the last.
     pub histogram: Vec<u64>,
     /// Scale-free complementarity residual η.
     pub residual: f64,
@@ -150,8 +156,8 @@ pub struct Statistics {
 pub struct Cost {
     /// Conjugate gradient steps on the grid of the contacts.
     pub iterations: usize,
-    /// Convolutions, and preconditioned residuals, each of which takes as long; on a coarse grid they count by its share of
-    /// cells.
+    /// Convolutions, and preconditioned residuals, each of which takes as long; on a coarse grid they count
+    /// by its share of cells.
     pub convolutions: f64,
     /// Returns to the last feasible pressure for lack of progress.
     pub restarts: usize,
@@ -163,8 +169,9 @@ impl Level {
         [0, 1].map(|axis| TAU / (self.padded[axis] as f64 * self.pitch[axis]))
     }
 
-    /// Returns the displacement of a cell per unit pressure on itself, from the one that its convolution `found`. A single
-    /// periodic cell has none, because its mean is free; the displacement of a wave of this length then serves as a scale.
+    /// Returns the displacement of a cell per unit pressure on itself, from the one that its convolution
+    /// `found`. A single periodic cell has none, because its mean is free; the displacement of a wave of this
+    /// length then serves as a scale.
     pub(crate) fn self_influence(&self, found: f64) -> f64 {
         if found > 0.0 {
             return found;
@@ -175,8 +182,8 @@ impl Level {
         }
     }
 
-    /// Returns the factor of the preconditioner for a uniform pressure, which has no wavenumber: that of half of the longest
-    /// wave.
+    /// Returns the factor of the preconditioner for a uniform pressure, which has no wavenumber: that of half
+    /// of the longest wave.
     pub(crate) fn stiffness_at_zero(&self) -> f64 {
         0.5 / match &self.harmonics {
             Harmonics::HalfSpaces(modulus) => {

@@ -1,7 +1,8 @@
 //! The iteration: preconditioned conjugate gradients on predicted active sets.
 //!
-//! It is the active set of the processor's solver, of operations that a device does well: transforms, operations cell by
-//! cell, and sums. The preconditioner is the inverse of the displacement of harmonics, restricted to the free cells.
+//! It is the active set of the processor's solver, of operations that a device does well: transforms,
+//! operations cell by cell, and sums. The preconditioner is the inverse of the displacement of harmonics,
+//! restricted to the free cells.
 
 use asperity_base::error::{Error, Result, check};
 use asperity_base::math::active_set::{
@@ -75,8 +76,8 @@ impl<'a, F: Fields> Iteration<'a, F> {
         Ok(this)
     }
 
-    /// Iterates until η is below the tolerance that `wanted` returns for a state. On a coarse grid the solution is only a
-    /// `guess`, and need not be exact.
+    /// Iterates until η is below the tolerance that `wanted` returns for a state. On a coarse grid the
+    /// solution is only a `guess`, and need not be exact.
     pub(crate) fn solve(
         &mut self,
         wanted: &dyn Fn(&State) -> f64,
@@ -174,7 +175,8 @@ impl<'a, F: Fields> Iteration<'a, F> {
         Ok(())
     }
 
-    /// Returns the offset with which the proposed pressures, between the two of `range`, have this sum after clipping.
+    /// Returns the offset with which the proposed pressures, between the two of `range`, have this sum after
+    /// clipping.
     fn offset(&mut self, [min, max]: [Pascal; 2], wanted: Pascal) -> Result<Pascal> {
         let [_, upper] = self.fields.upper();
         let each = if upper.is_finite() { upper.max(wanted / self.fields.cells() as f64) } else { wanted };
@@ -182,8 +184,8 @@ impl<'a, F: Fields> Iteration<'a, F> {
         offset_for_sum([-max, each - min], wanted, accuracy, |offset| self.fields.proposed_sum(offset))
     }
 
-    /// Returns the mean over the free cells of values with this sum under a load, along which the load does not change; 0 at
-    /// an approach.
+    /// Returns the mean over the free cells of values with this sum under a load, along which the load does
+    /// not change; 0 at an approach.
     fn mean(&self, sum: f64) -> f64 {
         match self.control {
             Control::PressureSum(_) => sum / self.free_cells,
@@ -191,8 +193,8 @@ impl<'a, F: Fields> Iteration<'a, F> {
         }
     }
 
-    /// Performs an outer step: predicts the sets, moves the other cells to their bounds, and solves for the free cells by
-    /// conjugate gradients.
+    /// Performs an outer step: predicts the sets, moves the other cells to their bounds, and solves for the
+    /// free cells by conjugate gradients.
     fn outer_step(&mut self, state: State, wanted: f64) -> Result<State> {
         let stiffness = 1.0 / (self.caution.compliance_factor * self.fields.self_influence());
         let range = self.fields.propose(state.approach, stiffness)?;
@@ -274,15 +276,17 @@ impl<'a, F: Fields> Iteration<'a, F> {
         Ok(Left { residual: residual.sqrt(), violation: violation.sqrt(), largest, datum })
     }
 
-    /// Safeguards the iteration against cycles of the predicted sets. After some outer steps without progress it returns to a
-    /// feasible pressure, from which an exact line search lowers the energy. Returns whether it did so.
+    /// Safeguards the iteration against cycles of the predicted sets. After some outer steps without progress
+    /// it returns to a feasible pressure, from which an exact line search lowers the energy. Returns whether
+    /// it did so.
     fn safeguard(&mut self, norm: f64, approach: Metre) -> Result<bool> {
         if !self.caution.demands_a_search(norm) {
             return Ok(false);
         }
         self.become_feasible()?;
         if self.search(approach)? <= MIN_SEARCH_STEP {
-            // If this makes no progress, it searches along the gap of the last feasible pressure, which is now the present one.
+            // If this makes no progress, it searches along the gap of the last feasible pressure, which is
+            // now the present one.
             let datum = self.state()?.approach;
             self.step_along_gap(datum)?;
             self.search(approach)?;
@@ -292,8 +296,8 @@ impl<'a, F: Fields> Iteration<'a, F> {
         Ok(true)
     }
 
-    /// Handles pressures that are all at their bounds without equilibrium. One step along the gap frees some cells. If it only
-    /// moves cells to the other bound, a line search limits the step.
+    /// Handles pressures that are all at their bounds without equilibrium. One step along the gap frees some
+    /// cells. If it only moves cells to the other bound, a line search limits the step.
     fn step_from_bounds(&mut self, approach: Metre) -> Result<()> {
         self.bound_steps += 1;
         if self.bound_steps == 1 {
@@ -311,8 +315,8 @@ impl<'a, F: Fields> Iteration<'a, F> {
         self.become_feasible()
     }
 
-    /// Moves to the pressure with the least energy between the last feasible pressure and the present one, and keeps it as the
-    /// last feasible one. Returns the fraction of the way.
+    /// Moves to the pressure with the least energy between the last feasible pressure and the present one,
+    /// and keeps it as the last feasible one. Returns the fraction of the way.
     fn search(&mut self, approach: Metre) -> Result<f64> {
         self.fields.convolve_kept()?;
         self.convolutions += 1;

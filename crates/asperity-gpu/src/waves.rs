@@ -1,4 +1,5 @@
-//! The waves of a rough surface: random numbers from a counter, so that each wave is known alone, on any grid.
+//! The waves of a rough surface: random numbers from a counter, so that each wave is known alone, on any
+//! grid.
 
 use std::f64::consts::{PI, TAU};
 
@@ -32,8 +33,8 @@ impl Waves {
         }
     }
 
-    /// Returns the amplitude of the wave with `k` periods along x and `l` ≥ 0 along y, without the factor of the slope: real
-    /// and imaginary part. One of a pair of waves with opposite signs is drawn.
+    /// Returns the amplitude of the wave with `k` periods along x and `l` ≥ 0 along y, without the factor of
+    /// the slope: real and imaginary part. One of a pair of waves with opposite signs is drawn.
     pub(crate) fn amplitude(&self, k: i64, l: i64) -> [f64; 2] {
         let q = self.first * ((k * k + l * l) as f64).sqrt();
         if q == 0.0 || q > self.shortest {

@@ -18,11 +18,11 @@ use asperity_base::ranks::{Largest, Number, Parts, Ranks, Slab};
 /// Number of rows that are transposed at a time.
 const BLOCK: usize = 8;
 
-/// Convolution in either precision of fields with rows on each rank. The kernel has at least their size, and values
-/// beyond the fields are zero. The result has the bits of the convolution of one process.
+/// Convolution in either precision of fields with rows on each rank. The kernel has at least their size, and
+/// values beyond the fields are zero. The result has the bits of the convolution of one process.
 ///
-/// Each rank transforms its rows. After a transposition each rank has some columns, which it transforms, multiplies
-/// by the kernel and transforms back. A second transposition returns the rows.
+/// Each rank transforms its rows. After a transposition each rank has some columns, which it transforms,
+/// multiplies by the kernel and transforms back. A second transposition returns the rows.
 pub(crate) struct SlabConvolution {
     ranks: Arc<dyn Ranks>,
     rows: Parts,
@@ -32,8 +32,8 @@ pub(crate) struct SlabConvolution {
 }
 
 impl SlabConvolution {
-    /// Creates the convolution of the fields of a `slab` with the kernel of `shape` and this `transform` at the
-    /// bins `(kx, ky)`, for `kx ≤ Mx/2`, `ky ≤ My/2`.
+    /// Creates the convolution of the fields of a `slab` with the kernel of `shape` and this `transform` at
+    /// the bins `(kx, ky)`, for `kx ≤ Mx/2`, `ky ≤ My/2`.
     pub(crate) fn from_transform(
         slab: &Slab,
         shape: [usize; 2],
@@ -47,8 +47,8 @@ impl SlabConvolution {
         Self::new(slab, plans, spectrum)
     }
 
-    /// Creates the convolution of the fields of a `slab` with the kernel of `shape` and the values `at(i, j)` at
-    /// the offsets ±i, ±j, for `i ≤ Mx/2`, `j ≤ My/2`.
+    /// Creates the convolution of the fields of a `slab` with the kernel of `shape` and the values `at(i, j)`
+    /// at the offsets ±i, ±j, for `i ≤ Mx/2`, `j ≤ My/2`.
     pub(crate) fn from_values(slab: &Slab, shape: [usize; 2], at: impl Fn(usize, usize) -> f64) -> Self {
         let plans = Plans::new(shape);
         let ranks = slab.ranks();

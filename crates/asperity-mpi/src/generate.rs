@@ -20,8 +20,8 @@ pub(crate) fn makes_slabs(generator: &Generator) -> bool {
     }
 }
 
-/// Generates the heights of [`Generator::generate`] on a `slab`, to the round-off of sums; those of the underside, if
-/// it is turned over. All ranks call it together.
+/// Generates the heights of [`Generator::generate`] on a `slab`, to the round-off of sums; those of the
+/// underside, if it is turned over. All ranks call it together.
 ///
 /// # Errors
 /// [`asperity_base::Error::OutOfRange`] if a parameter is invalid, in general or on this grid.
@@ -62,8 +62,8 @@ pub(crate) fn generate_slab(
     }
 }
 
-/// Filters white noise to a `spectrum`, given on each rank at its frequencies, cuts it to the grid, removes its mean, and
-/// scales it to the rms height `sq`.
+/// Filters white noise to a `spectrum`, given on each rank at its frequencies, cuts it to the grid, removes
+/// its mean, and scales it to the rms height `sq`.
 fn stationary(
     slab: &Slab,
     transform: &SlabTransform,

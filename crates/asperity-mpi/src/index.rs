@@ -176,8 +176,8 @@ impl Index {
         file.write()
     }
 
-    /// Opens the files of the ranks, and checks that they are undamaged, belong to this run, and contain the rows given in
-    /// the index.
+    /// Opens the files of the ranks, and checks that they are undamaged, belong to this run, and contain the
+    /// rows given in the index.
     ///
     /// # Errors
     /// [`Error::File`], [`Error::NotResumable`], [`Error::OtherRows`], each with the name of the file.

@@ -1,8 +1,8 @@
 //! A static contact on a grid that is divided among ranks, processes that have a slab of its rows each.
 //!
-//! [`run_on_ranks`] computes a case on any [`Ranks`](asperity_base::ranks::Ranks), and [`collect`] gathers its fields. The command
-//! `asperity-mpi` calls them on the processes of MPI. Nothing else here knows MPI: without the feature `mpi`, the default, the
-//! library needs none, and its tests use threads as ranks.
+//! [`run_on_ranks`] computes a case on any [`Ranks`](asperity_base::ranks::Ranks), and [`collect`] gathers
+//! its fields. The command `asperity-mpi` calls them on the processes of MPI. Nothing else here knows MPI:
+//! without the feature `mpi`, the default, the library needs none, and its tests use threads as ranks.
 
 mod transposition;
 mod transform;

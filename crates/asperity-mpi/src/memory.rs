@@ -8,8 +8,8 @@ use asperity_cli::{available_memory, machine_name, memory_of_machine};
 use asperity_mpi::{DemandOfRank, demand_of_collecting, demand_on_ranks};
 use asperity_study::Case;
 
-/// Returns an error on all ranks if a machine has too little memory for its ranks, or a rank for itself. If the fields are
-/// `collected` at the end, the first rank needs the memory of all of them.
+/// Returns an error on all ranks if a machine has too little memory for its ranks, or a rank for itself. If
+/// the fields are `collected` at the end, the first rank needs the memory of all of them.
 pub(crate) fn check(case: &Case, ranks: &dyn Ranks, collected: bool) -> Result<(), Error> {
     let DemandOfRank { steady, making, collecting, .. } = demand_on_ranks(case, ranks.count())?;
     let collecting = if collected { collecting } else { 0.0 };

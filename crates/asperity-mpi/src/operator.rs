@@ -14,7 +14,8 @@ use asperity_contact::operator::{Boundary, FreeFamily, Operator, PeriodicFft};
 /// A pair loaded on a grid with a slab on each rank. Its results have the bits of [`super::FreeFft`] or
 /// [`PeriodicFft`].
 ///
-/// All ranks create it and apply it together. Each rank passes the pressure on its rows and gets their displacement.
+/// All ranks create it and apply it together. Each rank passes the pressure on its rows and gets their
+/// displacement.
 pub struct SlabFft {
     slab: Slab,
     /// The grid of the rows of this rank.
@@ -30,8 +31,8 @@ pub struct SlabFft {
 enum Coefficients {
     /// Displacements by single cells, or by lines of cells.
     Cells(Arc<dyn Influence>),
-    /// Displacements by cells that are periodic along both axes, up to [`NEAR`] cells away, and at the largest
-    /// distance.
+    /// Displacements by cells that are periodic along both axes, up to [`NEAR`] cells away, and at the
+    /// largest distance.
     Periodic(Field, f64),
 }
 
@@ -39,8 +40,8 @@ enum Coefficients {
 const NEAR: usize = 5;
 
 impl SlabFft {
-    /// Creates the operator of a `slab` for bodies with this `response`, such as the composite modulus E* of two
-    /// half-spaces.
+    /// Creates the operator of a `slab` for bodies with this `response`, such as the composite modulus E* of
+    /// two half-spaces.
     ///
     /// # Panics
     /// If the boundary is periodic along one axis and the response has no line.

@@ -30,8 +30,9 @@ pub(crate) struct SlabBody {
     pub(crate) origin: Option<Origin>,
 }
 
-/// Generates the topographies of a static contact by slabs, if both are generated without further preparation. Otherwise
-/// each rank reads or generates and prepares them in full, and keeps only its own rows.
+/// Generates the topographies of a static contact by slabs, if both are generated without further
+/// preparation. Otherwise each rank reads or generates and prepares them in full, and keeps only its own
+/// rows.
 ///
 /// # Errors
 /// The errors of [`bodies`]; [`asperity_base::Error::TooManyRanks`].

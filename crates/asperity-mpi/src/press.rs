@@ -17,11 +17,12 @@ pub struct SlabContact {
     pub solution: Solution,
 }
 
-/// Presses a pair like [`asperity_contact::motion::press`], with the rows of one `slab` on each rank. All ranks call it together. The record
-/// describes the whole contact, the solution the rows of the slab.
+/// Presses a pair like [`asperity_contact::motion::press`], with the rows of one `slab` on each rank. All
+/// ranks call it together. The record describes the whole contact, the solution the rows of the slab.
 ///
 /// # Errors
-/// The errors of [`asperity_contact::solver::solve_normal`]. If one rank fails, the others keep waiting for it.
+/// The errors of [`asperity_contact::solver::solve_normal`]. If one rank fails, the others keep waiting for
+/// it.
 ///
 /// # Panics
 /// If the shape of the bodies differs from that of the slab.
@@ -41,7 +42,8 @@ pub fn press_slab(
     Ok(SlabContact { record: record_of(&solution, slab), solution })
 }
 
-/// Returns the record of a contact without friction whose solution is distributed over the slabs of the ranks.
+/// Returns the record of a contact without friction whose solution is distributed over the slabs of the
+/// ranks.
 fn record_of(solution: &Solution, slab: &Slab) -> StaticRecord {
     let own = StaticRecord::new(solution);
     let [load, contact_area, gaps, elastic_energy, plastic_cells, plastic_volume] = slab.merged([

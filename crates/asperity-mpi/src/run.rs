@@ -94,17 +94,17 @@ const PROGRAM: f64 = 24e6;
 /// Bytes of a number.
 const NUMBER: f64 = 8.0;
 
-/// Computes the static contact of `case` on these `ranks`, which all call it together, and writes its results to
-/// `directory`, which all of them must see. Each rank writes the fields on its rows, and rank 0 everything else. Rank 0
-/// receives the summary.
+/// Computes the static contact of `case` on these `ranks`, which all call it together, and writes its results
+/// to `directory`, which all of them must see. Each rank writes the fields on its rows, and rank 0 everything
+/// else. Rank 0 receives the summary.
 ///
-/// If both surfaces are Gaussian or forms, without further preparation, each rank generates only its slab. For other
-/// surfaces each rank holds the whole for a while.
+/// If both surfaces are Gaussian or forms, without further preparation, each rank generates only its slab.
+/// For other surfaces each rank holds the whole for a while.
 ///
 /// # Errors
-/// Every error of a case, its surfaces, the contact or the directory; [`Error::Case`] for input that is not supported on
-/// ranks; [`Error::RanksDiffer`], also if a rank sees another directory than rank 0; [`Error::TooManyRanks`]. If one rank
-/// fails, the others keep waiting for it.
+/// Every error of a case, its surfaces, the contact or the directory; [`Error::Case`] for input that is not
+/// supported on ranks; [`Error::RanksDiffer`], also if a rank sees another directory than rank 0;
+/// [`Error::TooManyRanks`]. If one rank fails, the others keep waiting for it.
 pub fn run_on_ranks(
     case: &Case,
     ranks: &Arc<dyn Ranks>,
@@ -152,13 +152,13 @@ pub fn run_on_ranks(
     conclude(case, &writer, began, computed, Vec::new()).map(Some)
 }
 
-/// Gathers the fields that the ranks of a run left in `directory` into one file, as from a run of one process. Adds to the
-/// summary the warnings that need the whole contact. It takes the memory of all fields.
+/// Gathers the fields that the ranks of a run left in `directory` into one file, as from a run of one
+/// process. Adds to the summary the warnings that need the whole contact. It takes the memory of all fields.
 ///
 /// # Errors
-/// [`Error::NoResults`] if no run on ranks has finished, [`Error::File`] for missing or damaged files, [`Error::OtherRows`]
-/// for files with the rows of another rank, [`Error::NotResumable`] for files of another run. Earlier collected fields then
-/// stay unchanged.
+/// [`Error::NoResults`] if no run on ranks has finished, [`Error::File`] for missing or damaged files,
+/// [`Error::OtherRows`] for files with the rows of another rank, [`Error::NotResumable`] for files of another
+/// run. Earlier collected fields then stay unchanged.
 pub fn collect(directory: &Path) -> Result<()> {
     let results = Results::open(directory)?;
     let index = Index::read(directory, &results.case_json()?)?;
@@ -236,7 +236,8 @@ fn check_same(ranks: &dyn Ranks, what: &'static str, text: &str) -> Result<()> {
     }
 }
 
-/// Returns an error if a rank does not see the `directory` of rank 0, which keeps a file there until all have looked.
+/// Returns an error if a rank does not see the `directory` of rank 0, which keeps a file there until all have
+/// looked.
 fn check_same_directory(ranks: &dyn Ranks, directory: &Path) -> Result<()> {
     /// Number of attempts, and the wait between them: a network file system may be slow.
     const TRIALS: (usize, Duration) = (10, Duration::from_millis(100));

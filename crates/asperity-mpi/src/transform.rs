@@ -15,8 +15,8 @@ use asperity_base::ranks::{Parts, Ranks, Slab};
 /// Number of rows that are transposed at a time.
 const BLOCK: usize = 8;
 
-/// Transforms of real fields of one shape, like [`asperity_base::math::RealFft2`]. Each rank has its rows of the field, and its
-/// frequencies along y of the transform.
+/// Transforms of real fields of one shape, like [`asperity_base::math::RealFft2`]. Each rank has its rows of
+/// the field, and its frequencies along y of the transform.
 pub(crate) struct SlabTransform {
     ranks: Arc<dyn Ranks>,
     plans: Plans<f64>,
@@ -46,8 +46,8 @@ impl SlabTransform {
         Parts::even(self.plans.half(), self.ranks.count())
     }
 
-    /// Computes the unnormalised transform of a field. `row` sets its rows and is called in order for the rows of
-    /// this rank. Returns `[l, k]` for the frequencies l of this rank along y.
+    /// Computes the unnormalised transform of a field. `row` sets its rows and is called in order for the
+    /// rows of this rank. Returns `[l, k]` for the frequencies l of this rank along y.
     pub(crate) fn forward(&self, mut row: impl FnMut(usize, &mut [f64])) -> Array2<Complex64> {
         let Self { ranks, plans } = self;
         let [nx, ny] = plans.shape;

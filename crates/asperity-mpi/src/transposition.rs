@@ -8,8 +8,8 @@ use asperity_base::ranks::{Number, Parts, Ranks};
 
 /// Complex numbers `[row, column]` with rows, or columns, on each rank.
 ///
-/// Two ranks exchange the cells in the rows of one and the columns of the other, column by column. The memory is two
-/// real numbers per cell in each of the two forms.
+/// Two ranks exchange the cells in the rows of one and the columns of the other, column by column. The memory
+/// is two real numbers per cell in each of the two forms.
 pub(crate) struct Transposition<T> {
     ranks: Arc<dyn Ranks>,
     rows: Parts,

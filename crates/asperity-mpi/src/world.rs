@@ -41,7 +41,8 @@ impl World {
                 own = Some((part, room));
                 continue;
             }
-            // Messages between two ranks arrive in the order in which they are sent; an empty part has no message.
+            // Messages between two ranks arrive in the order in which they are sent; an empty part has no
+            // message.
             to.extend(part.chunks(MAX_MESSAGE).map(|message| (process(rank), message)));
             from.extend(room.chunks_mut(MAX_MESSAGE).map(|message| (process(rank), message)));
         }

@@ -55,8 +55,8 @@ impl Problem {
         })
     }
 
-    /// Compares the contact on several ranks with that of one process, to `accuracy` of the largest pressure and
-    /// of the approach.
+    /// Compares the contact on several ranks with that of one process, to `accuracy` of the largest pressure
+    /// and of the approach.
     fn check(&self, count: usize, one: &Solution, accuracy: f64) {
         let largest = one.max_pressure();
         let on_ranks: Vec<_> = self.on(count).into_iter().map(Result::unwrap).collect();
@@ -144,7 +144,8 @@ fn what_is_wrong_with_the_whole_every_rank_says() {
         control,
         tolerance: 1e-6,
     };
-    // The first load is too large for half of the grid, but not for the whole; the second is too large for the whole.
+    // The first load is too large for half of the grid, but not for the whole; the second is too large for
+    // the whole.
     let limit = 1e9 * grid.area();
     let bearable = problem(Bounds::up_to(1e9), Control::Load(0.7 * limit));
     bearable.check(3, &bearable.alone().unwrap(), 1e-5);

@@ -20,10 +20,12 @@ pub(crate) struct CoreStudy {
     directory: PathBuf,
 }
 
-/// Key, unit and values of the axis of the points of sweeps, and the index of each row on it; none for a case that failed.
+/// Key, unit and values of the axis of the points of sweeps, and the index of each row on it; none for a case
+/// that failed.
 type Points<'py> = (String, String, Bound<'py, PyList>, Vec<Option<u32>>);
 
-/// The rows of a study: cases, the points of their sweeps, columns with name, unit and values, numbers of warnings, and reasons of failures.
+/// The rows of a study: cases, the points of their sweeps, columns with name, unit and values, numbers of
+/// warnings, and reasons of failures.
 type Collected<'py> = (
     Vec<usize>,
     Option<Points<'py>>,
@@ -57,7 +59,8 @@ impl CoreStudy {
         indices.into_pyarray(py).reshape([self.study.len(), self.study.axes().len()])
     }
 
-    /// Returns the state of each case, "done", "failed", "running" in some process, or "open", and the reason of a failure.
+    /// Returns the state of each case, "done", "failed", "running" in some process, or "open", and the reason
+    /// of a failure.
     fn states(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, Option<String>)>> {
         let states =
             work::run(py, 0, None, |_| self.folder()?.map(|folder| self.stand(&folder)).transpose())?;
@@ -73,7 +76,8 @@ impl CoreStudy {
         ))
     }
 
-    /// Computes the remaining cases of a task. Once all are over, writes tables and page. Returns the failed cases.
+    /// Computes the remaining cases of a task. Once all are over, writes tables and page. Returns the failed
+    /// cases.
     fn run(
         &self,
         py: Python<'_>,

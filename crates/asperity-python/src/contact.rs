@@ -60,8 +60,8 @@ impl Source<'_> {
     }
 }
 
-/// Returns the case of a call with its surfaces; an error if it needs more memory than is available. Custom laws may change the bodies of a
-/// motion.
+/// Returns the case of a call with its surfaces; an error if it needs more memory than is available. Custom
+/// laws may change the bodies of a motion.
 pub(crate) fn asked(
     py: Python<'_>,
     source: &Source<'_>,

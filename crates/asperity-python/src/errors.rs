@@ -1,4 +1,5 @@
-//! Exceptions: one for each variant of the library's error, in `asperity.errors`, with its fields as attributes.
+//! Exceptions: one for each variant of the library's error, in `asperity.errors`, with its fields as
+//! attributes.
 
 use asperity::Error;
 use asperity::error::Detail;

@@ -12,14 +12,15 @@ use pyo3::prelude::*;
 use crate::arrays::ok;
 use crate::work;
 
-/// A pass: the pressure at each position `[it, ix, iy]`, the pitch, the ratio of the shear along x to the pressure at each position, the
-/// boundary along both axes, and Poisson's ratio.
+/// A pass: the pressure at each position `[it, ix, iy]`, the pitch, the ratio of the shear along x to the
+/// pressure at each position, the boundary along both axes, and Poisson's ratio.
 type Pass<'py> = (PyReadonlyArray3<'py, f64>, [f64; 2], Vec<f64>, [String; 2], f64);
 
 /// Arrays `[iz, ix, iy]`.
 type Planes<'py> = Vec<Bound<'py, PyArray3<f64>>>;
 
-/// Computes Dang Van's f, the radius of the smallest ball and the amplitude of the shear, each `[iz, ix, iy]`, and a and b of the criterion.
+/// Computes Dang Van's f, the radius of the smallest ball and the amplitude of the shear, each
+/// `[iz, ix, iy]`, and a and b of the criterion.
 #[pyfunction]
 pub(crate) fn fatigue<'py>(
     py: Python<'py>,
@@ -57,7 +58,8 @@ pub(crate) fn fatigue<'py>(
 /// The damage of a pass at each depth, and the critical depth of each column.
 type Damage<'py> = (Bound<'py, PyArray3<f64>>, Bound<'py, PyArray2<f64>>);
 
-/// Computes the damage of a pass at each depth `[iz, ix, iy]`, and the depth that a column must lose in a pass for it not to pit, from f over its limit.
+/// Computes the damage of a pass at each depth `[iz, ix, iy]`, and the depth that a column must lose in a
+/// pass for it not to pit, from f over its limit.
 #[pyfunction]
 pub(crate) fn damage<'py>(
     py: Python<'py>,

@@ -1,7 +1,7 @@
 //! Private module of the Python package: arrays and tables in, arrays and records out.
 //!
-//! It contains no physics, and checks only types. The library defines what a case may contain, and the public classes are
-//! written in Python, in `python/asperity`.
+//! It contains no physics, and checks only types. The library defines what a case may contain, and the public
+//! classes are written in Python, in `python/asperity`.
 
 mod arrays; // conversion of matrices and records
 mod cases; // a study: many cases made from one

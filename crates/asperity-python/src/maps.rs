@@ -19,8 +19,8 @@ pub(crate) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(flow, module)?)
 }
 
-/// Solves a joint: cells in contact and pitch, boundary along both axes, kind, conductivities of both bodies, film,
-/// conductivity and jump distance of the gas, gap, tolerance, number of threads.
+/// Solves a joint: cells in contact and pitch, boundary along both axes, kind, conductivities of both bodies,
+/// film, conductivity and jump distance of the gas, gap, tolerance, number of threads.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "all of the physics of one call")]
 fn conductance<'py>(
@@ -72,7 +72,8 @@ fn conductance<'py>(
 /// Numbers of a flow along an axis by their names; leakage is `None` without viscosity.
 type Numbers = Vec<(&'static str, f64)>;
 
-/// Numbers, bounds for the other faces, cell of the critical constriction, leakage, pressure, flux along x and y, cells that flow.
+/// Numbers, bounds for the other faces, cell of the critical constriction, leakage, pressure, flux along x
+/// and y, cells that flow.
 type AlongAxis<'py> = (
     Numbers,
     [f64; 2],
@@ -83,8 +84,9 @@ type AlongAxis<'py> = (
     Bound<'py, PyArray2<bool>>,
 );
 
-/// Solves for the flow through a gap along both axes; a fluid has a viscosity, a drop of its pressure, and the absolute pressure of the
-/// outlet of a gas. Ends and sides are those of the flow along each axis. Returns numbers of the gap, the coupling of both directions, and the flow along each.
+/// Solves for the flow through a gap along both axes; a fluid has a viscosity, a drop of its pressure, and
+/// the absolute pressure of the outlet of a gas. Ends and sides are those of the flow along each axis.
+/// Returns numbers of the gap, the coupling of both directions, and the flow along each.
 #[pyfunction]
 fn flow<'py>(
     py: Python<'py>,

@@ -54,8 +54,9 @@ struct State {
     solved: Option<SolvedPass>,
 }
 
-/// Contacts of a pass as flat arrays: position, cell of the lower and of the upper body, pressure, plastic interference,
-/// fractional displacement from the cells of the lower and of the upper body, shear, temperature.
+/// Contacts of a pass as flat arrays: position, cell of the lower and of the upper body, pressure, plastic
+/// interference, fractional displacement from the cells of the lower and of the upper body, shear,
+/// temperature.
 type Contacts<'py> = (
     Bound<'py, PyArray1<i64>>,
     Bound<'py, PyArray1<i64>>,
@@ -181,8 +182,8 @@ impl CorePasses {
         Ok([&pair.lower, &pair.upper].map(|body| array(py, body.heights.clone())))
     }
 
-    /// Returns the size of a cell, the sliding distance and the time for which a position stands, and the numbers of cells of the
-    /// lower and of the upper body.
+    /// Returns the size of a cell, the sliding distance and the time for which a position stands, and the
+    /// numbers of cells of the lower and of the upper body.
     fn grid(&self) -> PyResult<([f64; 2], f64, f64, [(usize, usize); 2])> {
         let state = self.state()?;
         let simulation = state.passes.as_ref().ok_or_else(ended)?.simulation();
@@ -194,7 +195,8 @@ impl CorePasses {
         Ok((pitch, distance, time, [&pair.lower, &pair.upper].map(|body| body.heights.dim())))
     }
 
-    /// Removes the depths of a single pass from the bodies of the solved one, for each pass that it represents.
+    /// Removes the depths of a single pass from the bodies of the solved one, for each pass that it
+    /// represents.
     fn remove(
         &self,
         number: usize,

@@ -20,8 +20,8 @@ use crate::work;
 /// Appends the answer at a point with these coordinates.
 type Answer = Box<dyn Fn(&[f64], &mut Vec<f64>) + Send + Sync>;
 
-/// Makes an `if` for each question: `form.method` from the data of the form, at the coordinates of a point, and functions
-/// of coordinates alone.
+/// Makes an `if` for each question: `form.method` from the data of the form, at the coordinates of a point,
+/// and functions of coordinates alone.
 macro_rules! answers {
     (
         $question:ident, $data:ident;
@@ -173,8 +173,8 @@ impl Numbers for Stress {
     }
 }
 
-/// Evaluates a closed form with these `data` at `points`, with one row of coordinates for each, and returns one row of
-/// numbers for each.
+/// Evaluates a closed form with these `data` at `points`, with one row of coordinates for each, and returns
+/// one row of numbers for each.
 #[pyfunction]
 pub(crate) fn closed_form<'py>(
     py: Python<'py>,
@@ -221,7 +221,8 @@ fn material((young, poisson, coating): Constants) -> Result<Material> {
     })
 }
 
-/// Returns the compliances of a pair, 1/E*, 1/N*, 1/G*, their E* and Dundurs' β, and the composite tangential modulus.
+/// Returns the compliances of a pair, 1/E*, 1/N*, 1/G*, their E* and Dundurs' β, and the composite tangential
+/// modulus.
 #[pyfunction]
 pub(crate) fn compliances(py: Python<'_>, lower: Constants, upper: Constants) -> PyResult<[f64; 6]> {
     let pair = || {
@@ -234,7 +235,8 @@ pub(crate) fn compliances(py: Python<'_>, lower: Constants, upper: Constants) ->
     ok(pair(), py)
 }
 
-/// A material by name: name, grade, Young's modulus, Poisson's ratio, hardness, conductivity, heat capacity, density, resistivity, source.
+/// A material by name: name, grade, Young's modulus, Poisson's ratio, hardness, conductivity, heat capacity,
+/// density, resistivity, source.
 type NamedConstants = (
     &'static str,
     &'static str,

@@ -15,8 +15,8 @@ use crate::work;
 /// A stored array: values, unit, names of the axes, pitch and origin along each.
 type StoredArray<'py> = (Bound<'py, PyArrayDyn<f64>>, String, Vec<String>, Vec<f64>, Vec<f64>);
 
-/// Returns the SI unit of a column of a table or of a number of a summary: "1" for a pure number, an empty text for a text;
-/// `None` if there is no such column.
+/// Returns the SI unit of a column of a table or of a number of a summary: "1" for a pure number, an empty
+/// text for a text; `None` if there is no such column.
 #[pyfunction]
 pub(crate) fn unit_of_column(column: &str) -> Option<&'static str> {
     asperity::study::unit_of_column(column)
@@ -77,7 +77,8 @@ impl CoreResults {
         record(py, &ok(self.results.sweep(), py)?)
     }
 
-    /// Returns the names of the fields of a kind: "contact", "pass", "point", "increment", "subsurface", "plasticity".
+    /// Returns the names of the fields of a kind: "contact", "pass", "point", "increment", "subsurface",
+    /// "plasticity".
     fn names(&self, py: Python<'_>, kind: &str, number: Option<usize>) -> PyResult<Vec<String>> {
         ok(self.fields(kind, number).and_then(|fields| fields.names()), py)
     }

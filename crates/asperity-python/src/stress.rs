@@ -13,8 +13,8 @@ use crate::arrays::{field, ok};
 use crate::surface::Heights;
 use crate::work;
 
-/// Loading of a body: pressure and pitch, shear along x and y on the lower body, boundary along both axes, Poisson's ratio,
-/// and whether it is the upper body.
+/// Loading of a body: pressure and pitch, shear along x and y on the lower body, boundary along both axes,
+/// Poisson's ratio, and whether it is the upper body.
 type LoadedBody<'py> = (Heights<'py>, [Option<PyReadonlyArray2<'py, f64>>; 2], [String; 2], f64, bool);
 
 /// Creates the body on any thread.
@@ -78,7 +78,8 @@ pub(crate) fn most_stressed(
     Ok((most(von_mises), most(shear)))
 }
 
-/// Computes von Mises' stress, the largest shear, or the concatenated principal stresses, from these components.
+/// Computes von Mises' stress, the largest shear, or the concatenated principal stresses, from these
+/// components.
 #[pyfunction]
 pub(crate) fn invariants<'py>(
     py: Python<'py>,

@@ -26,8 +26,8 @@ pub(crate) fn topography(py: Python<'_>, (heights, pitch): &Heights<'_>) -> PyRe
     ok(made, py)
 }
 
-/// Makes the topography described by a table, with the keys of `[lower.topography]` of a case; also returns the findings of
-/// its preparation. `given` are the heights named by `given = "heights"`.
+/// Makes the topography described by a table, with the keys of `[lower.topography]` of a case; also returns
+/// the findings of its preparation. `given` are the heights named by `given = "heights"`.
 #[pyfunction]
 #[pyo3(signature = (table, given=None))]
 pub(crate) fn surface<'py>(
@@ -97,8 +97,8 @@ fn dimension(name: &str) -> PyResult<Dimension> {
     })
 }
 
-/// Converts a quantity to SI, from a number or a text with a unit. `positive` requires it to be above 0, `infinite` allows
-/// infinity. Errors name the `key`.
+/// Converts a quantity to SI, from a number or a text with a unit. `positive` requires it to be above 0,
+/// `infinite` allows infinity. Errors name the `key`.
 #[pyfunction]
 #[pyo3(signature = (key, value, dimension, positive=true, infinite=false))]
 pub(crate) fn quantity(

@@ -38,7 +38,8 @@ pub(crate) fn scalar<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAn
     }
 }
 
-/// Converts a value. Number-like and list-like objects, such as NumPy scalars and arrays, are treated as numbers and lists.
+/// Converts a value. Number-like and list-like objects, such as NumPy scalars and arrays, are treated as
+/// numbers and lists.
 fn entry(value: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
     let value = &scalar(value)?;
     if let Ok(entries) = value.cast::<PyDict>() {

@@ -14,8 +14,8 @@ pub(crate) fn verification_cases() -> Vec<(&'static str, &'static str)> {
 /// Quantity, refined quantity, sizes, errors, order, expectation, and whether it is met.
 type Row = (&'static str, &'static str, Vec<usize>, Vec<f64>, f64, String, bool);
 
-/// Computes the case with this index. Returns its part of the table of `asperity verify`, its checks, and its error, if it
-/// failed.
+/// Computes the case with this index. Returns its part of the table of `asperity verify`, its checks, and its
+/// error, if it failed.
 #[pyfunction]
 pub(crate) fn verify(
     py: Python<'_>,

@@ -18,9 +18,9 @@ use crate::errors;
 /// Interval at which the caller handles signals and reports progress.
 const TICK: Duration = Duration::from_millis(50);
 
-/// Runs `work` on `threads` (0: one per core) and returns its result. Meanwhile the caller, detached from the interpreter,
-/// wakes up regularly, handles signals and calls `progress`. An exception of either stops the work, and is raised once it
-/// has ended.
+/// Runs `work` on `threads` (0: one per core) and returns its result. Meanwhile the caller, detached from the
+/// interpreter, wakes up regularly, handles signals and calls `progress`. An exception of either stops the
+/// work, and is raised once it has ended.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     threads: usize,
@@ -30,7 +30,8 @@ pub(crate) fn run<T: Send>(
     run_warning(py, threads, progress, None, work)
 }
 
-/// [`run`] that calls `warn` with each warning about a result as soon as it is known, also if the work then fails.
+/// [`run`] that calls `warn` with each warning about a result as soon as it is known, also if the work then
+/// fails.
 pub(crate) fn run_warning<T: Send>(
     py: Python<'_>,
     threads: usize,
@@ -78,7 +79,8 @@ fn text(panic: &(dyn Any + Send)) -> String {
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
 }
 
-/// Pass, passes, trial, positions solved, positions, load, and the progress if all positions are solved together.
+/// Pass, passes, trial, positions solved, positions, load, and the progress if all positions are solved
+/// together.
 type Told = (usize, usize, usize, usize, usize, f64, Option<f64>);
 
 /// Observer of the work.
@@ -153,8 +155,8 @@ fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 /// Threads used last by this process: process id, number and pool.
 static LAST: Mutex<Option<(u32, usize, Arc<ThreadPool>)>> = Mutex::new(None);
 
-/// Returns a pool of `threads` threads of this process. Threads of a process do not exist in its forked child, where
-/// waiting for them would block forever.
+/// Returns a pool of `threads` threads of this process. Threads of a process do not exist in its forked
+/// child, where waiting for them would block forever.
 fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     if threads > MAX_THREADS {
         let message = format!("'threads' is {threads}, expected a whole number from 1 to {MAX_THREADS}");

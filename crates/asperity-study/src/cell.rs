@@ -3,8 +3,8 @@
 /// First characters of a formula in a spreadsheet.
 const FORMULAS: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
 
-/// Writes a cell of a CSV table. A text that a spreadsheet would compute as a formula gets an apostrophe in front; a number
-/// gets none.
+/// Writes a cell of a CSV table. A text that a spreadsheet would compute as a formula gets an apostrophe in
+/// front; a number gets none.
 pub(crate) fn quoted(text: &str) -> String {
     if text.starts_with(FORMULAS) && text.parse::<f64>().is_err() {
         in_quotes(&format!("'{text}"))

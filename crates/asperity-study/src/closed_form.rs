@@ -53,14 +53,15 @@ pub struct ClosedForm {
 }
 
 columns! {
-    /// Closed form of the contact of two smooth forms, and the deviation of the computed contact from it: `closed_form` in
-    /// `summary.json`.
+    /// Closed form of the contact of two smooth forms, and the deviation of the computed contact from it:
+    /// `closed_form` in `summary.json`.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct ClosedFormRecord {
         /// Theory: `hertz-point`, `hertz-line` or `sneddon-cone`.
         pub theory: Theory,
-        /// Half widths of the contact along x and y by the theory; along a line contact, half the length of the grid.
+        /// Half widths of the contact along x and y by the theory; along a line contact, half the length of
+        /// the grid.
         pub theory_half_widths: [Metre; 2],
         /// Contact area by the theory.
         pub theory_contact_area: SquareMetre,
@@ -102,8 +103,8 @@ impl From<&SweepRecord> for ElasticContact {
 impl ClosedForm {
     /// Returns the closed form of a static contact of `case` on a grid of this extent, under `control`.
     ///
-    /// `None` if there is none: for bodies that are not both bare forms (flat, sphere, ellipsoid, cylinder, cone), for
-    /// coated bodies, for boundaries that the theory does not have, and if nothing presses.
+    /// `None` if there is none: for bodies that are not both bare forms (flat, sphere, ellipsoid, cylinder,
+    /// cone), for coated bodies, for boundaries that the theory does not have, and if nothing presses.
     pub fn of(case: &Case, extent: [Metre; 2], control: Control) -> Option<Self> {
         if case.motion.is_some() || case.is_coated() {
             return None;

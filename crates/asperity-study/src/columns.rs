@@ -17,8 +17,8 @@ use asperity_contact::with::{Capability, InterfaceNumbers, Row as _};
 
 /// Returns the records of the results by name, each with its columns.
 ///
-/// `Converged` holds the additional columns of `static` in `summary.json`. `Table` holds the columns of the table of a
-/// study other than its axes and the numbers of the records.
+/// `Converged` holds the additional columns of `static` in `summary.json`. `Table` holds the columns of the
+/// table of a study other than its axes and the numbers of the records.
 pub fn records() -> &'static [(&'static str, &'static [Column])] {
     static RECORDS: LazyLock<Vec<(&str, &[Column])>> = LazyLock::new(|| {
         let mut records: Vec<(&str, &[Column])> = vec![
@@ -77,10 +77,11 @@ fn prefixes() -> Vec<(&'static str, &'static [Column])> {
     prefixes
 }
 
-/// Returns the declaration of a column of a table, or of a number of `summary.json`; `None` if no such column is written.
+/// Returns the declaration of a column of a table, or of a number of `summary.json`; `None` if no such column
+/// is written.
 ///
-/// The volumes removed by any law, such as `NAME_volume_lower`, are declared as those of the law `plastic`. In the table of
-/// a study, vector components and prefixed columns are declared without suffix and prefix.
+/// The volumes removed by any law, such as `NAME_volume_lower`, are declared as those of the law `plastic`.
+/// In the table of a study, vector components and prefixed columns are declared without suffix and prefix.
 pub fn column(name: &str) -> Option<Column> {
     find(records().iter().flat_map(|(_, columns)| *columns), name).or_else(|| {
         let of_record = |(prefix, columns): (&str, _)| Some((name.strip_prefix(prefix)?, columns));
@@ -126,14 +127,14 @@ pub fn columns() -> Vec<Column> {
     columns
 }
 
-/// Returns the SI unit of a [`column()`]: `"1"` for a pure number or a count, an empty text for a text; `None` if no such
-/// column is written.
+/// Returns the SI unit of a [`column()`]: `"1"` for a pure number or a count, an empty text for a text;
+/// `None` if no such column is written.
 pub fn unit_of_column(name: &str) -> Option<&'static str> {
     column(name).map(|column| column.unit)
 }
 
-/// Returns the dimension of a [`column()`]; `None` for pure numbers, for texts, and for moments and spins, which no case
-/// file contains.
+/// Returns the dimension of a [`column()`]; `None` for pure numbers, for texts, and for moments and spins,
+/// which no case file contains.
 pub fn dimension_of_column(name: &str) -> Option<Dimension> {
     let unit = unit_of_column(name)?;
     Dimension::ALL.into_iter().find(|dimension| dimension.si() == unit)

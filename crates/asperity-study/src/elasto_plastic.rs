@@ -20,7 +20,8 @@ pub(super) fn bodies(case: &Case, spec: &PlasticRegion, pair: &Pair) -> Result<[
     Ok([of_body(0)?, of_body(1)?])
 }
 
-/// Returns the number of unloading steps after these `stages`, as many as those of the first one; `None` if the load stays.
+/// Returns the number of unloading steps after these `stages`, as many as those of the first one; `None` if
+/// the load stays.
 pub(super) fn unloading(region: &PlasticRegion, stages: &[Stage]) -> Option<usize> {
     let steps = stages.first().map_or(1, |stage| stage.increments);
     region.unload.unwrap_or(true).then_some(steps)

@@ -28,11 +28,12 @@ use asperity_contact::solver::{Control, Coupling, Creep, Friction, Rolling, Tang
 use asperity_contact::with::InterfaceNumbers;
 use asperity_surface::{Form, Level};
 
-/// Largest rms slope of the gap for a half-space theory: up to here tan and sin of a slope agree within about 5 %.
+/// Largest rms slope of the gap for a half-space theory: up to here tan and sin of a slope agree within about
+/// 5 %.
 pub(super) const STEEP: f64 = 0.3;
 
-/// Share of E* that the pressure of elastic bodies may reach. The shear strength of a perfect crystal is about G/2π (Frenkel,
-/// Z. Phys. 37, 572 (1926)), and Hertz' contact has it below a pressure of about E*/10.
+/// Share of E* that the pressure of elastic bodies may reach. The shear strength of a perfect crystal is
+/// about G/2π (Frenkel, Z. Phys. 37, 572 (1926)), and Hertz' contact has it below a pressure of about E*/10.
 pub(super) const STRENGTH: f64 = 0.1;
 
 /// Properties of a computation known before it starts.
@@ -45,7 +46,8 @@ pub struct Estimate {
     pub dundurs: f64,
     /// The course of the contact.
     pub course: Course,
-    /// Cap on the pressure: the smaller hardness, infinite for an elastic pair; the smallest value of hardness maps.
+    /// Cap on the pressure: the smaller hardness, infinite for an elastic pair; the smallest value of
+    /// hardness maps.
     pub hardness: Pascal,
     /// Largest cap on the pressure of any two cells; equal to `hardness` if no hardness is a map.
     pub max_hardness: Pascal,
@@ -63,8 +65,8 @@ pub struct Estimate {
     pub apparent_area: SquareMetre,
     /// Mean apparent area over the positions.
     pub mean_facing_area: SquareMetre,
-    /// Upper limit of the load, with every cell of the overlap at the hardness, reduced by the shear of sliding bodies;
-    /// infinite for an elastic pair.
+    /// Upper limit of the load, with every cell of the overlap at the hardness, reduced by the shear of
+    /// sliding bodies; infinite for an elastic pair.
     pub plastic_limit: Newton,
     /// Rms slope of the initial gap, for independent surfaces.
     pub gap_slope: f64,
@@ -83,8 +85,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The shortest relaxation time and the longest retardation time of the bodies, and how much stiffer they are when they are fast; `None` for
-    /// elastic bodies.
+    /// The shortest relaxation time and the longest retardation time of the bodies, and how much stiffer they
+    /// are when they are fast; `None` for elastic bodies.
     fn relaxation(&self) -> Option<([Second; 2], f64)> {
         self.viscoelastic.as_ref().map(|bodies| (bodies.times, bodies.stiffening))
     }
@@ -93,8 +95,8 @@ impl Estimate {
 /// Estimates `case` on its `bodies`.
 ///
 /// # Errors
-/// [`Error::BeyondPlasticLimit`] if no pressure within the hardness can carry the load, [`Error::BeyondFriction`] if no
-/// shear within the friction can carry the tangential force.
+/// [`Error::BeyondPlasticLimit`] if no pressure within the hardness can carry the load,
+/// [`Error::BeyondFriction`] if no shear within the friction can carry the tangential force.
 pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     let (lower, upper) = (&case.lower.material, &case.upper.material);
     let [lower_grid, upper_grid] = [&bodies.lower, &bodies.upper].map(|body| *body.topography.grid());
@@ -201,7 +203,8 @@ fn share_of_lower(lower: &CellValues, upper: &CellValues) -> Option<f64> {
     }
 }
 
-/// Checks the plastic limit of a case from its grids alone, without its surfaces. A case with a hardness map passes.
+/// Checks the plastic limit of a case from its grids alone, without its surfaces. A case with a hardness map
+/// passes.
 ///
 /// # Errors
 /// [`Error::BeyondPlasticLimit`] if no pressure within the hardness can carry the load.
@@ -264,9 +267,9 @@ fn stage_cap(friction: Option<&Friction>, stage: &Stage, hardness: Pascal) -> Pa
     }
 }
 
-/// Returns an error if a stage prescribes more load than its cells can carry together with its shear. The sums of p and of
-/// √α q over all cells are at most H, as on each cell. In gross slip this holds from the first increment of the stage, when
-/// most of the load of the stage before is still present.
+/// Returns an error if a stage prescribes more load than its cells can carry together with its shear. The
+/// sums of p and of √α q over all cells are at most H, as on each cell. In gross slip this holds from the
+/// first increment of the stage, when most of the load of the stage before is still present.
 fn bears(
     friction: Option<&Friction>,
     stages: &[Stage],
@@ -300,8 +303,8 @@ fn bears(
     Ok(())
 }
 
-/// Returns an error if the tangential force of a stage exceeds the friction limit under its load: at most μp and at most τ
-/// on each cell.
+/// Returns an error if the tangential force of a stage exceeds the friction limit under its load: at most μp
+/// and at most τ on each cell.
 fn holds(friction: &Friction, course: &Course, control: Control, apparent_area: SquareMetre) -> Result<()> {
     let ends: Vec<_> = match course {
         Course::Stages(stages) => {
@@ -359,8 +362,8 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
             estimate.gap_slope
         ));
     }
-    // Rms pressure of a rough contact pressed flat, E* h'/2; Persson (2001). The real contact has about this pressure at
-    // any load. The slope of a form is largest at its rim, far from the contact.
+    // Rms pressure of a rough contact pressed flat, E* h'/2; Persson (2001). The real contact has about this
+    // pressure at any load. The slope of a form is largest at its rim, far from the contact.
     let pressure = 0.5 * estimate.modulus * estimate.gap_slope;
     let is_form = |body: &Body| {
         let TopographySpec { source, plus, .. } = &body.topography;
@@ -458,8 +461,8 @@ fn thin(name: &str, case: &Case, pitch: [Metre; 2]) -> Option<String> {
     })
 }
 
-/// Warns if there is no contact, if the boundary of the grid cuts the contact off, or if the contact has too few cells. Returns whether the
-/// bodies are curved.
+/// Warns if there is no contact, if the boundary of the grid cuts the contact off, or if the contact has too
+/// few cells. Returns whether the bodies are curved.
 fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut Estimate) -> bool {
     let surfaces = [bodies.lower.topography.heights(), bodies.upper.topography.heights()];
     if let Control::Approach(approach) = estimate.control
@@ -580,8 +583,8 @@ fn rolls_plastically(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Optio
 pub(super) const NOT_FLATTENED: &str = "in steady rolling, over a track that was not flattened before: what has been \
                                         rolled over meets a lower surface; a [motion] with `passes` flattens it";
 
-/// Estimate of the largest pressure of a contact without a hardness, if there is one: Hertz' pressure of a ball, or E* h'/2
-/// for a rough surface.
+/// Estimate of the largest pressure of a contact without a hardness, if there is one: Hertz' pressure of a
+/// ball, or E* h'/2 for a rough surface.
 fn rolling_pressure(case: &Case, prepared: &Bodies, estimate: &Estimate) -> Option<Pascal> {
     let bodies = [&case.lower, &case.upper];
     if !roll_alike(case, prepared) {
@@ -608,7 +611,8 @@ fn roll_alike(case: &Case, bodies: &Bodies) -> bool {
     both.into_iter().all(|(body, prepared)| has_smooth_form(body) || is_smooth(prepared))
 }
 
-/// Whether the heights of a body are those of a ball or a cylinder within a fiftieth. A surface from a file may be one.
+/// Whether the heights of a body are those of a ball or a cylinder within a fiftieth. A surface from a file
+/// may be one.
 fn is_smooth(body: &MountedSurface) -> bool {
     /// Rms height of the roughness relative to the rms height about a plane.
     const ROUGH: f64 = 0.02;

@@ -88,8 +88,9 @@ pub fn conclude(
     Ok(summary)
 }
 
-/// Returns the closed form beside the computed contact of `case` on a grid of this extent, for a sweep at its last point. `None`
-/// if there is none, or if cells have yielded or worn, which no closed form here describes.
+/// Returns the closed form beside the computed contact of `case` on a grid of this extent, for a sweep at its
+/// last point. `None` if there is none, or if cells have yielded or worn, which no closed form here
+/// describes.
 pub fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) -> Option<ClosedFormRecord> {
     let computed: ElasticContact = match outcome {
         Outcome::Static(record) => {

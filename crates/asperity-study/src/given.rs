@@ -7,8 +7,8 @@ use asperity_base::error::{Error, Result};
 use asperity_base::grid::Field;
 use asperity_surface::Topography;
 
-/// Surfaces and maps in memory that a case names: `given = "NAME"` in the table of a topography or of a hardness, in place
-/// of `file`. Each is used once.
+/// Surfaces and maps in memory that a case names: `given = "NAME"` in the table of a topography or of a
+/// hardness, in place of `file`. Each is used once.
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct SurfaceInput {

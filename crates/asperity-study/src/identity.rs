@@ -20,8 +20,9 @@ pub(super) const FILES: [&str; 6] = [
     "/upper/viscoelastic",
 ];
 
-/// Returns the content of `case.json`. The case is resolved to SI, a shape or pitch taken from the other body is filled in,
-/// and the SHA-256 of each file stands beside its name. `identity` is the digest of everything that determines the numbers.
+/// Returns the content of `case.json`. The case is resolved to SI, a shape or pitch taken from the other body
+/// is filled in, and the SHA-256 of each file stands beside its name. `identity` is the digest of everything
+/// that determines the numbers.
 pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
     let Bodies { lower, upper, master_curves } = bodies;
     let data = [(lower, &master_curves[0]), (upper, &master_curves[1])].map(|(body, curve)| BodyData {
@@ -71,13 +72,14 @@ pub fn resolved_of(case: &Case, bodies: [BodyData<'_>; 2]) -> Value {
     resolved
 }
 
-/// Returns the digest in all files of a run. Runs with equal results have the same digest, so that their files are
-/// interchangeable.
+/// Returns the digest in all files of a run. Runs with equal results have the same digest, so that their
+/// files are interchangeable.
 pub fn of(case: &Value) -> String {
     sha256(&serde_json::to_vec(&deciding(case)).expect("a JSON value can be written"))
 }
 
-/// Returns an error unless the results in `directory`, whose case is `before`, are also those of the case `now`.
+/// Returns an error unless the results in `directory`, whose case is `before`, are also those of the case
+/// `now`.
 pub(super) fn compare(directory: &Path, before: &Value, now: &Value) -> Result<()> {
     for key in FILES {
         let digest = |case: &Value| case.pointer(key)?.get("sha256").cloned();
@@ -112,7 +114,8 @@ pub(super) fn without_digests(resolved: &Value) -> Value {
     case
 }
 
-/// Returns the case without the keys that do not affect a finished pass: title, number of passes, folder of the files.
+/// Returns the case without the keys that do not affect a finished pass: title, number of passes, folder of
+/// the files.
 fn deciding(case: &Value) -> Value {
     let mut case = case.clone();
     if let Some(keys) = case.as_object_mut() {

@@ -1,4 +1,5 @@
-//! The steps of a run, each with everything that was found in it: the rows of `results.csv` and of the table of a study.
+//! The steps of a run, each with everything that was found in it: the rows of `results.csv` and of the table
+//! of a study.
 
 use std::collections::BTreeMap;
 use std::slice;
@@ -42,7 +43,8 @@ impl Cell {
 /// Byte order mark, without which Excel does not recognise the encoding.
 pub(super) const MARK: char = '\u{feff}';
 
-/// Writes `results.csv`, atomically: a row for each pass, point, update or increment of a run, or for its contact.
+/// Writes `results.csv`, atomically: a row for each pass, point, update or increment of a run, or for its
+/// contact.
 ///
 /// # Errors
 /// [`asperity_base::Error::File`].
@@ -201,7 +203,8 @@ pub(super) fn add_found(
     });
 }
 
-/// Adds the cells of a row of a capability. The row of its contact has some of them too, which stand there once.
+/// Adds the cells of a row of a capability. The row of its contact has some of them too, which stand there
+/// once.
 fn add_beside<C: Capability>(row: &mut Vec<Cell>, found: &C::Row, cells: Vec<Cell>) {
     const OF_CONTACT: [&str; 3] = ["load", "mean_pressure", "contact_area"];
     // A word says what the prefix does.
@@ -215,7 +218,8 @@ fn add_beside<C: Capability>(row: &mut Vec<Cell>, found: &C::Row, cells: Vec<Cel
     }
 }
 
-/// Returns what a column of a row of a capability is, if it answers the question of the user: it is that of one of its curves.
+/// Returns what a column of a row of a capability is, if it answers the question of the user: it is that of
+/// one of its curves.
 fn answer<C: Capability>(row: &C::Row, column: &str) -> Option<String> {
     let curve = C::CURVES.iter().find(|curve| (curve.column)(row) == column)?;
     let main = || curve.series.iter().filter(|series| !series.is_beside);

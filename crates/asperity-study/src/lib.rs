@@ -1,8 +1,8 @@
 //! Case files, their runs, and their results: contact of rough surfaces that press together and move.
 //!
-//! [`Case::load`] reads a case file. [`bodies`] reads or generates its surfaces and prepares them. [`demand`] and
-//! [`estimate`] return cost and warnings in advance. [`run()`] does all of this and writes a [`Results`] directory with a
-//! [`Summary`]. [`many`] computes studies of many cases.
+//! [`Case::load`] reads a case file. [`bodies`] reads or generates its surfaces and prepares them. [`demand`]
+//! and [`estimate`] return cost and warnings in advance. [`run()`] does all of this and writes a [`Results`]
+//! directory with a [`Summary`]. [`many`] computes studies of many cases.
 //!
 //! | you have | use | you get |
 //! |---|---|---|
@@ -12,50 +12,58 @@
 //! | results | [`Results::open`] | its case, tables and fields |
 //! | a study file | [`many::Study`] | a plan, its cases, a table |
 //!
-//! Everything of a case is checked key by key, with the place of a mistake: see [`CaseError`](asperity_base::error::CaseError).
+//! Everything of a case is checked key by key, with the place of a mistake: see
+//! [`CaseError`](asperity_base::error::CaseError).
 //!
 //! # Results that survive
 //!
-//! **Order of writing.** Every file is written under a temporary name and renamed (`io::atomic`). Tables are the exception: each step appends its
-//! rows (`study::tables`), so finished steps take no memory. A step is a pass, an increment, an update or a point. It writes in this order:
+//! **Order of writing.** Every file is written under a temporary name and renamed (`io::atomic`). Tables are
+//! the exception: each step appends its rows (`study::tables`), so finished steps take no memory. A step is a
+//! pass, an increment, an update or a point. It writes in this order:
 //!
 //! 1. its fields;
 //! 2. the state from which the next step continues (`fields/state-NNNN.h5`, `study::state`);
 //! 3. for a pass, the rows of `steps.csv`;
 //! 4. its own row.
 //!
-//! A step is finished when its row is complete, including the end of the line. The state of the step before is removed afterwards, so that a
-//! kill at any moment leaves a usable state. `summary.json` exists only once the run is finished.
+//! A step is finished when its row is complete, including the end of the line. The state of the step before
+//! is removed afterwards, so that a kill at any moment leaves a usable state. `summary.json` exists only once
+//! the run is finished.
 //!
-//! **Start.** A run enters its directory (`study::results`, `Writer::enter`): it locks it and checks its content. Then it begins
-//! (`Writer::begin`): it clears old results, removes stale temporary files and writes `case.json`. Nothing
-//! changes between the two. Every error that does not need a solution is reported before the begin. A contact in one step is solved before it
-//! begins. Clearing keeps `case.json` until it is replaced, so that a results directory is always recognised. A run that is
-//! killed before its `case.json` leaves only the lock file, temporary files and an empty `fields/`, which count as an empty directory.
+//! **Start.** A run enters its directory (`study::results`, `Writer::enter`): it locks it and checks its
+//! content. Then it begins (`Writer::begin`): it clears old results, removes stale temporary files and writes
+//! `case.json`. Nothing changes between the two. Every error that does not need a solution is reported before
+//! the begin. A contact in one step is solved before it begins. Clearing keeps `case.json` until it is
+//! replaced, so that a results directory is always recognised. A run that is killed before its `case.json`
+//! leaves only the lock file, temporary files and an empty `fields/`, which count as an empty directory.
 //!
-//! **Locks.** The lock is an operating-system lock on `.lock`. It ends with its process and is held until the figures are drawn.
-//! Reading needs no lock. If the file system has no locks, `summary.json` contains a warning. A process locks its temporary files (advisory
-//! locks, as on Unix). Every command removes stale temporary files from the folders to which it writes, but only those of processes that have ended.
+//! **Locks.** The lock is an operating-system lock on `.lock`. It ends with its process and is held until the
+//! figures are drawn. Reading needs no lock. If the file system has no locks, `summary.json` contains a
+//! warning. A process locks its temporary files (advisory locks, as on Unix). Every command removes stale
+//! temporary files from the folders to which it writes, but only those of processes that have ended.
 //!
-//! **Memory.** Fields go to their temporary file one by one, and are read in parts (`io::fields`). Memory holds the packed chunks of
-//! one field, not the file. Low bytes of numbers are noise, and are stored as they are; any reader of HDF5 reads them.
+//! **Memory.** Fields go to their temporary file one by one, and are read in parts (`io::fields`). Memory
+//! holds the packed chunks of one field, not the file. Low bytes of numbers are noise, and are stored as they
+//! are; any reader of HDF5 reads them.
 //!
 //! **Foreign files.** Only regular files are read (`io::regular`), because a pipe or a device has no end.
 //!
-//! **Studies.** Several processes may share the cases of a study (`study::many`). They communicate only by files and locks. A case is finished if its
-//! `summary.json` or its `failed.json` exists. A process takes a case by the lock of its results directory, checks again whether it is finished, and
-//! computes it under that lock. The plan holds the digests of the files that the study names (`files.rs`). A case
-//! passes them to `study::bodies` with its `SurfaceInput`, which compares them with the files read.
+//! **Studies.** Several processes may share the cases of a study (`study::many`). They communicate only by
+//! files and locks. A case is finished if its `summary.json` or its `failed.json` exists. A process takes a
+//! case by the lock of its results directory, checks again whether it is finished, and computes it under that
+//! lock. The plan holds the digests of the files that the study names (`files.rs`). A case passes them to
+//! `study::bodies` with its `SurfaceInput`, which compares them with the files read.
 //!
-//! **Identity.** `case.json` holds the SHA-256 of each surface file and an identity: the digest of all data that decide the numbers
-//! (`study::identity`). The title, the number of passes and the folder of a file are not part of it. Every field file carries the identity and
-//! a digest of its own content.
+//! **Identity.** `case.json` holds the SHA-256 of each surface file and an identity: the digest of all data
+//! that decide the numbers (`study::identity`). The title, the number of passes and the folder of a file are
+//! not part of it. Every field file carries the identity and a digest of its own content.
 //!
-//! **Resuming.** `--resume` compares the case key by key and the digests. It reads every field file of the finished
-//! passes in full. If a file differs, is damaged or is missing, it names it in an error. Rows have digests too (`study::tables::digest`, without
-//! times): a state has the digest of all rows before it, and `summary.json` has the digest of the rows of finished results. A row that was
-//! edited by hand is an error. Readers compare tables with the summary in the same way (`Results`), so that a truncated
-//! table is an error that names the file.
+//! **Resuming.** `--resume` compares the case key by key and the digests. It reads every field file of the
+//! finished passes in full. If a file differs, is damaged or is missing, it names it in an error. Rows have
+//! digests too (`study::tables::digest`, without times): a state has the digest of all rows before it, and
+//! `summary.json` has the digest of the rows of finished results. A row that was edited by hand is an error.
+//! Readers compare tables with the summary in the same way (`Results`), so that a truncated table is an error
+//! that names the file.
 //!
 //! | resumed | taken from | same bits as an uninterrupted run |
 //! |---|---|---|
@@ -65,14 +73,16 @@
 //!
 //! The state of a static contact is removed once `summary.json` exists.
 //!
-//! **Ranks.** Each file of a rank (`fields/rank-NNNN.h5`) holds the identity of the run, its rows and the number of ranks. `fields/ranks.json` has the
-//! same data of all ranks, with a digest. `study::collect` reads only files that agree. The first rank keeps a temporary file in the results
-//! directory until all ranks have seen it, so that no two directories get parts of one run.
+//! **Ranks.** Each file of a rank (`fields/rank-NNNN.h5`) holds the identity of the run, its rows and the
+//! number of ranks. `fields/ranks.json` has the same data of all ranks, with a digest. `study::collect` reads
+//! only files that agree. The first rank keeps a temporary file in the results directory until all ranks have
+//! seen it, so that no two directories get parts of one run.
 //!
-//! **Interruptions.** Ctrl-C sets a flag that the watch reports. A motion stops at the next position, a loading at the next increment, a sweep at the
-//! next point, and figures after the present one. Everything written so far stays. The steps of a preparation and the description of a surface check a
-//! `surface::Stop` regularly. A second Ctrl-C ends the process. A full disk, a limit on the size of files
-//! and a full stdout are errors with exit code 1. A closed pipe is not an error.
+//! **Interruptions.** Ctrl-C sets a flag that the watch reports. A motion stops at the next position, a
+//! loading at the next increment, a sweep at the next point, and figures after the present one. Everything
+//! written so far stays. The steps of a preparation and the description of a surface check a `surface::Stop`
+//! regularly. A second Ctrl-C ends the process. A full disk, a limit on the size of files and a full stdout
+//! are errors with exit code 1. A closed pipe is not an error.
 
 pub mod case; // the case file, checked key by key
 mod cell; // cells of tables as CSV

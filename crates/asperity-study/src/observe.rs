@@ -1,9 +1,9 @@
 //! Observers: they compute something from each solved contact and change nothing.
 //!
-//! An observer has a table of its own with a row for each contact that it looks at, and fields. The fields of a static contact are
-//! those of its last contact, in `fields.h5`. The fields of points and positions that are kept are in `fields/NAME-NNNN.h5`, a file for
-//! each point or pass. The rows of a step are written before the row of the step itself, which marks it as done; a resumed run removes
-//! the rows of later steps.
+//! An observer has a table of its own with a row for each contact that it looks at, and fields. The fields of
+//! a static contact are those of its last contact, in `fields.h5`. The fields of points and positions that
+//! are kept are in `fields/NAME-NNNN.h5`, a file for each point or pass. The rows of a step are written
+//! before the row of the step itself, which marks it as done; a resumed run removes the rows of later steps.
 
 use std::mem;
 
@@ -58,7 +58,8 @@ impl<C: Reported> Observed<C> {
         Ok(Self { asked: asked.clone(), observer, rows, records, fields, files: None })
     }
 
-    /// Creates an observer that writes its table and its fields to the results of a `writer`, after `done` steps.
+    /// Creates an observer that writes its table and its fields to the results of a `writer`, after `done`
+    /// steps.
     ///
     /// # Errors
     /// [`Error::File`]; [`Error::NotResumable`] if the table of the finished steps is missing.
@@ -113,7 +114,8 @@ impl<C: Reported> Observed<C> {
 struct Seen<'a> {
     contact: ObservedContact<'a>,
     place: Place,
-    /// Whether it is the last contact of a course, or the first position of a pass at which the left edges are flush.
+    /// Whether it is the last contact of a course, or the first position of a pass at which the left edges
+    /// are flush.
     is_main: bool,
 }
 
@@ -224,8 +226,9 @@ pub(super) struct Observers {
 }
 
 impl Observers {
-    /// Creates the observers of a `case` with these bodies and `positions` of a pass, none for a static contact. Without a `writer`
-    /// their rows stay in memory; with one they go to files, after those of the steps that are `done`.
+    /// Creates the observers of a `case` with these bodies and `positions` of a pass, none for a static
+    /// contact. Without a `writer` their rows stay in memory; with one they go to files, after those of the
+    /// steps that are `done`.
     ///
     /// # Errors
     /// The errors of the observers; [`Error::File`].

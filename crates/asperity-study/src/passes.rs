@@ -24,8 +24,8 @@ use asperity_contact::motion::{
 use asperity_contact::with::{self, InterfaceNumbers};
 use asperity_surface::{NEVER, Stop};
 
-/// A running motion. [`Passes::solve`] and [`Passes::finish`] alternate until no pass is left, and [`Passes::end`] writes
-/// the summary. Between the two calls the pass can be read and changed.
+/// A running motion. [`Passes::solve`] and [`Passes::finish`] alternate until no pass is left, and
+/// [`Passes::end`] writes the summary. Between the two calls the pass can be read and changed.
 pub struct Passes {
     case: Case,
     simulation: Simulation,
@@ -43,8 +43,8 @@ pub struct Passes {
 }
 
 impl Passes {
-    /// Prepares the bodies of `case` with the surfaces `given`, and opens `directory`. A resumed motion continues after the
-    /// passes found there.
+    /// Prepares the bodies of `case` with the surfaces `given`, and opens `directory`. A resumed motion
+    /// continues after the passes found there.
     ///
     /// # Errors
     /// Every error of a case, its surfaces or the directory; [`Error::Unsupported`] for a static contact.
@@ -176,7 +176,8 @@ impl Passes {
     /// # Errors
     /// [`Error::File`].
     pub fn finish(&mut self, pass: SolvedPass, watch: &dyn Watch) -> Result<()> {
-        // The rows of the observers and the limits are written before that of the pass, which marks it as done.
+        // The rows of the observers and the limits are written before that of the pass, which marks it as
+        // done.
         let outputs: &mut [&mut dyn Output] = &mut [&mut self.observers, &mut self.limits, &mut self.output];
         self.simulation.finish(pass, watch, outputs)?;
         self.done += 1;
@@ -219,8 +220,8 @@ impl Passes {
     }
 }
 
-/// Creates the motion of a case. `virgin` is its upper body for passes that need a new one; by default that of the pair.
-/// Stress under the surface is requested at the position `look`.
+/// Creates the motion of a case. `virgin` is its upper body for passes that need a new one; by default that
+/// of the pair. Stress under the surface is requested at the position `look`.
 fn simulation(
     case: &Case,
     pair: Pair,

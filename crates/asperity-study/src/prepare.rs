@@ -92,8 +92,8 @@ pub struct PreparedTopography {
     pub findings: Findings,
 }
 
-/// Reads or generates the topography described by a table `[topography]` in `text`, with the keys of `[lower.topography]`
-/// in a case file. Paths of files are relative to `folder`.
+/// Reads or generates the topography described by a table `[topography]` in `text`, with the keys of
+/// `[lower.topography]` in a case file. Paths of files are relative to `folder`.
 ///
 /// # Errors
 /// [`Error::Case`] at the key with the mistake, as for [`bodies`].
@@ -136,9 +136,10 @@ pub fn topography_spec(text: &str, folder: &Path) -> Result<TopographySpec> {
 /// [`TopographySpec`].
 ///
 /// # Errors
-/// [`Error::Case`] at the key with the mistake. Mistakes are unreadable files, parameters that are invalid on this grid,
-/// missing heights that no step fills, and surfaces that do not fit together. Both surfaces need the same pitch and the
-/// same number of cells along y. Without motion, or if both are shifted, they also need the same number along x.
+/// [`Error::Case`] at the key with the mistake. Mistakes are unreadable files, parameters that are invalid on
+/// this grid, missing heights that no step fills, and surfaces that do not fit together. Both surfaces need
+/// the same pitch and the same number of cells along y. Without motion, or if both are shifted, they also
+/// need the same number along x.
 pub fn bodies(case: &Case, given: SurfaceInput) -> Result<Bodies> {
     bodies_until(case, given, NEVER)
 }
@@ -176,8 +177,8 @@ fn shared_axes(case: &Case) -> &'static [usize] {
     if overlap { &[1] } else { &[1, 0] }
 }
 
-/// Returns the coarser pitch of both prepared surfaces along each axis, to which they are resampled; `None` if they must fit
-/// by themselves.
+/// Returns the coarser pitch of both prepared surfaces along each axis, to which they are resampled; `None`
+/// if they must fit by themselves.
 fn common_pitch(case: &Case, given: &SurfaceInput) -> Result<Option<[Metre; 2]>> {
     if case.contact.grid == GridMatch::AsPrepared {
         return Ok(None);
@@ -209,8 +210,8 @@ impl MountedSurface {
     }
 }
 
-/// Generates the heights of the upper body of a `pass` after the first, like those of the first but from another seed, on
-/// the `grid` of the lower body.
+/// Generates the heights of the upper body of a `pass` after the first, like those of the first but from
+/// another seed, on the `grid` of the lower body.
 ///
 /// # Errors
 /// [`Error::Case`] as for [`bodies`].
@@ -548,7 +549,8 @@ impl Place<'_> {
         self.error("given", error.to_string(), error.hint())
     }
 
-    /// Error for a file that could not be read: the message of its reader, at the key of the file or of its channel.
+    /// Error for a file that could not be read: the message of its reader, at the key of the file or of its
+    /// channel.
     fn reading(&self, error: Error) -> Error {
         match &error {
             Error::NoChannel { available, .. } => {
@@ -624,8 +626,8 @@ impl Place<'_> {
         self.parameter_of("", error)
     }
 
-    /// Error for a parameter that is invalid on this grid, at its key in a `table` within that of the topography,
-    /// `"plus.0."`.
+    /// Error for a parameter that is invalid on this grid, at its key in a `table` within that of the
+    /// topography, `"plus.0."`.
     pub fn parameter_of(&self, table: &str, error: Error) -> Error {
         match error {
             Error::OutOfRange { quantity, value, dimension, expected } => {
@@ -673,7 +675,8 @@ impl Fit<'_> {
         if (0..2).all(|axis| same(lower.pitch[axis], upper.pitch[axis])) {
             return Ok(());
         }
-        // A generated surface can be made on any grid. Of two measured surfaces the finer one loses the least.
+        // A generated surface can be made on any grid. Of two measured surfaces the finer one loses the
+        // least.
         let changed = match self.origins.map(|origin| origin.is_some()) {
             [false, true] => 0,
             [true, false] => 1,

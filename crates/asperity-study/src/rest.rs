@@ -1,5 +1,5 @@
-//! A static contact of a case: solved in memory, or written to a results directory increment by increment and point by
-//! point.
+//! A static contact of a case: solved in memory, or written to a results directory increment by increment and
+//! point by point.
 
 use crate::case::{Case, Course};
 use crate::closed_form::ClosedFormRecord;
@@ -54,8 +54,8 @@ pub struct StaticResult {
 /// [`run()`](crate::run()).
 ///
 /// # Errors
-/// Every error of a case, its surfaces or the contact; [`Error::Unsupported`] for a motion. Stress under the surface is not
-/// computed, because it is written to a file.
+/// Every error of a case, its surfaces or the contact; [`Error::Unsupported`] for a motion. Stress under the
+/// surface is not computed, because it is written to a file.
 pub fn rest(case: &Case, given: SurfaceInput, watch: &dyn Watch) -> Result<StaticResult> {
     if case.course(1.0).moves() {
         return Err(Error::Unsupported("a motion is not a static contact"));
@@ -117,8 +117,8 @@ impl StaticResult {
     }
 }
 
-/// Solves the static contact of `case`, whose bodies are a `pair`, and adds warnings about the result. Intermediate results
-/// are written by the `writer`, which begins with the first of them.
+/// Solves the static contact of `case`, whose bodies are a `pair`, and adds warnings about the result.
+/// Intermediate results are written by the `writer`, which begins with the first of them.
 pub(super) fn solve(
     case: &Case,
     pair: Pair,
@@ -290,7 +290,8 @@ impl StaticProblem<'_> {
         Limits::new(self.case, &self.pair, self.estimate, (self.writer, done))
     }
 
-    /// Compares a contact that is solved in one step with the limits. Returns the warnings, which the watch receives at once.
+    /// Compares a contact that is solved in one step with the limits. Returns the warnings, which the watch
+    /// receives at once.
     fn compare(&self, solution: &Solution) -> Result<Vec<String>> {
         let mut limits = self.limits(None)?;
         limits.contact(solution)?;
@@ -312,7 +313,8 @@ impl StaticProblem<'_> {
     }
 }
 
-/// Returns the outputs of a course: the rows of the observers and the limits are written before that of the step.
+/// Returns the outputs of a course: the rows of the observers and the limits are written before that of the
+/// step.
 fn outputs<'a>(
     observers: &'a mut Observers,
     limits: &'a mut Limits,

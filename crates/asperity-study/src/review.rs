@@ -23,7 +23,8 @@ pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) 
     rim.into_iter().chain(of_interface).chain(too_few_cells(spot(pressure, boundary))).collect()
 }
 
-/// Warns of a scar on curved bodies that reaches a free side of the grid, from the bodies before and after they were worn.
+/// Warns of a scar on curved bodies that reaches a free side of the grid, from the bodies before and after
+/// they were worn.
 pub(super) fn scar(before: &Pair, after: &Pair, boundary: Boundary) -> Option<String> {
     /// Depth at the rim over the deepest that needs no warning.
     const SHALLOW: f64 = 0.01;
@@ -76,7 +77,8 @@ pub(super) fn loaded(contact: &LoadedContact, boundary: Boundary) -> Vec<String>
     warnings
 }
 
-/// Warns of bodies that laws change and that shift by more than a small part of their contact, while the same cells stay opposite each other.
+/// Warns of bodies that laws change and that shift by more than a small part of their contact, while the same
+/// cells stay opposite each other.
 fn moves_on(contact: &LoadedContact, boundary: Boundary) -> Option<String> {
     /// Amplitude over the width of the largest spot that needs no warning.
     const SMALL: f64 = 0.2;
@@ -100,7 +102,8 @@ fn moves_on(contact: &LoadedContact, boundary: Boundary) -> Option<String> {
     })
 }
 
-/// Warns of cycles in which a warm contact has time to cool, because their temperature is that of their mean heat.
+/// Warns of cycles in which a warm contact has time to cool, because their temperature is that of their mean
+/// heat.
 pub(super) fn flash_in_cycles(case: &Case, contact: &LoadedContact, boundary: Boundary) -> Option<String> {
     /// Largest rise that needs no warning, K.
     const SMALL: f64 = 10.0;
@@ -213,7 +216,8 @@ fn thick_layers(volumes: &[PlasticVolume], strain: f64, spot: Metre) -> Option<S
     })
 }
 
-/// Returns the warnings of a motion of elasto-plastic bodies, from its positions and passes, and from the residual volumes.
+/// Returns the warnings of a motion of elasto-plastic bodies, from its positions and passes, and from the
+/// residual volumes.
 pub(super) fn rolled(
     case: &Case,
     pitch: Metre,
@@ -221,8 +225,8 @@ pub(super) fn rolled(
     passes: &[PassRecord],
     left: &[PlasticVolume],
 ) -> Vec<String> {
-    /// Step of the load from one position to the next, relative to the load reached, above which the loading path is
-    /// resolved only roughly.
+    /// Step of the load from one position to the next, relative to the load reached, above which the loading
+    /// path is resolved only roughly.
     const STEP: f64 = 0.15;
     /// Stride, relative to the width of a spot, above which the path is resolved only roughly.
     const STRIDE: f64 = 0.1;
@@ -303,9 +307,11 @@ pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]
     all.chain(all_computed(case, passes)).chain(settled(passes)).collect()
 }
 
-/// Warns if most of the contact of the last pass lies in the rim, which the numbers of the interior leave out.
+/// Warns if most of the contact of the last pass lies in the rim, which the numbers of the interior leave
+/// out.
 fn contact_in_the_rim(passes: &[PassRecord]) -> Option<String> {
-    /// Largest share of the contact in the rim without a warning. Equal bodies in partial overlap have more than half there.
+    /// Largest share of the contact in the rim without a warning. Equal bodies in partial overlap have more
+    /// than half there.
     const MOST: f64 = 0.9;
     let last = passes.last()?;
     let share = 1.0 - last.mean_contact_area_interior / last.mean_contact_area;
@@ -320,7 +326,8 @@ fn contact_in_the_rim(passes: &[PassRecord]) -> Option<String> {
 
 /// Warns if viscoelastic bodies move by a large part of their spots of contact in a step.
 fn strides(case: &Case, passes: &[PassRecord]) -> Option<String> {
-    /// Stride over the width of the widest spot of contact that needs no warning; most spots of rough bodies are narrower by far.
+    /// Stride over the width of the widest spot of contact that needs no warning; most spots of rough bodies
+    /// are narrower by far.
     const SMALL: f64 = 0.06;
     let last = passes.last().filter(|pass| pass.drag.is_some() && pass.largest_spot_cells > 0)?;
     let (stride, widest) = (case.motion?.stride, last.largest_spot_cells);
@@ -367,7 +374,8 @@ fn settled(passes: &[PassRecord]) -> Option<String> {
     })
 }
 
-/// Warns if most of the volume of a law, called `what`, is lost at the free ends, more than in proportion to their area.
+/// Warns if most of the volume of a law, called `what`, is lost at the free ends, more than in proportion to
+/// their area.
 fn at_the_rim(
     case: &Case,
     shapes: [[usize; 2]; 2],

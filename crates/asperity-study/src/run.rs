@@ -19,15 +19,15 @@ use crate::summary::{Outcome, Summary};
 use asperity_base::error::Result;
 use asperity_contact::motion::Watch;
 
-/// Computes `case`, with the surfaces `given` that it names, and writes its results to `directory`. The returned writer
-/// owns the directory until it is dropped, so that figures can be added.
+/// Computes `case`, with the surfaces `given` that it names, and writes its results to `directory`. The
+/// returned writer owns the directory until it is dropped, so that figures can be added.
 ///
-/// Existing results stay until everything that can be checked before solving is checked. For a contact in one step they
-/// stay until it is solved.
+/// Existing results stay until everything that can be checked before solving is checked. For a contact in one
+/// step they stay until it is solved.
 ///
 /// # Errors
-/// Every error of a case, its surfaces, the contact or the directory. A motion that ends early leaves its finished passes,
-/// a loading its finished increments. [`Existing::Resume`] continues from these.
+/// Every error of a case, its surfaces, the contact or the directory. A motion that ends early leaves its
+/// finished passes, a loading its finished increments. [`Existing::Resume`] continues from these.
 pub fn run(
     case: &Case,
     given: SurfaceInput,

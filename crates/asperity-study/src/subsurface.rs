@@ -67,8 +67,9 @@ columns! {
         pub step: Option<usize>,
         /// Largest von Mises stress over all cells and depths.
         pub max_von_mises: Pascal,
-        /// Place of the largest von Mises stress: x and y from the corner of the body, z from its surface. Where a contact passes the
-        /// end of a body in a shift, x goes on at its beginning, as on the maps of the body.
+        /// Place of the largest von Mises stress: x and y from the corner of the body, z from its surface.
+        /// Where a contact passes the end of a body in a shift, x goes on at its beginning, as on the maps of
+        /// the body.
         pub position: [Metre; 3],
         /// Largest shear stress on any plane, ½(σ₁ − σ₃).
         pub max_shear: Pascal,
@@ -147,7 +148,8 @@ impl Plan {
         let cells = self.grid.cells() as f64;
         let padded = self.boundary.padded(self.grid.shape).map(|n| n as f64);
         let padded = padded[0] * padded[1];
-        // Six components, von Mises' stress, two tables; influence, its transform, their sum, and one in progress.
+        // Six components, von Mises' stress, two tables; influence, its transform, their sum, and one in
+        // progress.
         8.0 * (9.0 * cells + 4.0 * padded)
     }
 
@@ -168,8 +170,8 @@ impl Plan {
             .map(Some)
     }
 
-    /// Computes the stress in the requested body under `tractions`, which act on the lower body, plus its residual stress
-    /// from `plastic_state`. Writes it to `path` with the present content of `file`.
+    /// Computes the stress in the requested body under `tractions`, which act on the lower body, plus its
+    /// residual stress from `plastic_state`. Writes it to `path` with the present content of `file`.
     pub(super) fn write(
         &self,
         mut file: FieldFile,
@@ -292,7 +294,8 @@ impl Plan {
         self.depths[1]
     }
 
-    /// Centre of a cell on the body. Beyond the end of a body that repeats, it is that of the same cell of the body.
+    /// Centre of a cell on the body. Beyond the end of a body that repeats, it is that of the same cell of
+    /// the body.
     fn centre(&self, cell: [usize; 2]) -> [Metre; 2] {
         [0, 1].map(|axis| {
             let (at, length) =

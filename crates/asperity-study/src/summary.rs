@@ -32,18 +32,19 @@ pub struct Summary {
     /// The last update of a contact that slid in place, with its losses and final state; `None` for others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sliding: Option<UpdateRecord>,
-    /// Residual plastic state after the passes of elasto-plastic bodies, with its long-term regime; `None` for others. The
-    /// residual state of a static contact is in its record.
+    /// Residual plastic state after the passes of elasto-plastic bodies, with its long-term regime; `None`
+    /// for others. The residual state of a static contact is in its record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plasticity: Option<PlasticRecord>,
     /// The interface of the bodies in numbers, under the name of its table.
     #[serde(flatten)]
     pub interface: InterfaceNumbers,
-    /// Closed form of the contact beside the computed one, if both bodies are smooth forms; `None` for others.
+    /// Closed form of the contact beside the computed one, if both bodies are smooth forms; `None` for
+    /// others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closed_form: Option<ClosedFormRecord>,
-    /// The most stressed point, once for a static contact, once per pass for a motion; empty if the stress was not
-    /// requested.
+    /// The most stressed point, once for a static contact, once per pass for a motion; empty if the stress
+    /// was not requested.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub subsurface: Vec<SubsurfaceRecord>,
     /// The rows of the capabilities: those of the last contact, or of a motion what tells of its passes.
@@ -124,7 +125,8 @@ impl Outcome {
 pub(super) const CONVERGED: Column =
     Column::new("converged", "", "`true`: a computation that does not converge leaves no summary.");
 
-/// Writes a static contact with a flag for readers of the file. A contact that did not converge leaves no summary.
+/// Writes a static contact with a flag for readers of the file. A contact that did not converge leaves no
+/// summary.
 fn with_converged<S: Serializer>(
     record: &StaticRecord,
     serializer: S,

@@ -1,8 +1,8 @@
-//! `steps.csv`, `passes.csv`, `increments.csv`, `sweep.csv`: one row per position, pass, increment of a loading, or point
-//! of a sweep.
+//! `steps.csv`, `passes.csv`, `increments.csv`, `sweep.csv`: one row per position, pass, increment of a
+//! loading, or point of a sweep.
 //!
-//! A table grows by the rows of each finished step. Only rows with a line end count, so that half a row left by a power cut
-//! is ignored. Numbers read back to the same bits.
+//! A table grows by the rows of each finished step. Only rows with a line end count, so that half a row left
+//! by a power cut is ignored. Numbers read back to the same bits.
 
 use std::borrow::Cow;
 use std::io::{BufRead, BufReader, ErrorKind, Write};
@@ -47,8 +47,8 @@ pub(super) struct GrowingTable {
 }
 
 impl GrowingTable {
-    /// Opens the table at `path` with its first `rows` rows. It must exist unless `rows` is 0. Later rows, left by a killed
-    /// run, are removed.
+    /// Opens the table at `path` with its first `rows` rows. It must exist unless `rows` is 0. Later rows,
+    /// left by a killed run, are removed.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -94,7 +94,8 @@ pub(super) fn rows_there(path: &Path) -> Result<usize> {
     Ok(text.iter().filter(|byte| **byte == b'\n').count().saturating_sub(1))
 }
 
-/// Counts the first rows of the table at `path` whose number in a `column` is at most `last`; 0 if there is no table.
+/// Counts the first rows of the table at `path` whose number in a `column` is at most `last`; 0 if there is
+/// no table.
 ///
 /// # Errors
 /// [`Error::File`].
@@ -186,8 +187,8 @@ pub(super) fn read_growing<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
 /// Expected kind of the files of this module.
 const TABLE: &str = "a table of results";
 
-/// Computes the digest of rows that follow rows with the digest `before`, which is empty for the first rows. Records, and
-/// the same records read back from a table, have equal digests.
+/// Computes the digest of rows that follow rows with the digest `before`, which is empty for the first rows.
+/// Records, and the same records read back from a table, have equal digests.
 pub(super) fn digest<T: Serialize>(before: &str, records: &[T]) -> String {
     records.iter().fold(before.to_owned(), |digest, record| {
         let mut text = digest;

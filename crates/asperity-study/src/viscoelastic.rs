@@ -13,7 +13,8 @@ use asperity_surface::Topography;
 
 /// Fewest steps of a stage in time with which its load and area are within some per cent.
 const STEPS: usize = 8;
-/// Storage modulus at the first frequency of a master curve over the relaxed modulus from which on it has not relaxed there.
+/// Storage modulus at the first frequency of a master curve over the relaxed modulus from which on it has not
+/// relaxed there.
 const FALLEN: f64 = 1.2;
 /// Largest error of a fit that is not told.
 const POOR: f64 = 0.15;
@@ -83,7 +84,8 @@ pub struct ViscoelasticEstimate {
     pub stiffening: f64,
 }
 
-/// Examines the viscoelastic bodies of a case, their steady sliding and their history; `None` without such bodies.
+/// Examines the viscoelastic bodies of a case, their steady sliding and their history; `None` without such
+/// bodies.
 ///
 /// # Errors
 /// [`Error::Case`] if both bodies are rough along x, and the errors of the fits.
@@ -195,7 +197,8 @@ fn doubts(
     Ok(doubts)
 }
 
-/// Returns reasons not to trust a master curve, whose times are multiplied by a `factor`, at the frequencies at which a `rough` body passes.
+/// Returns reasons not to trust a master curve, whose times are multiplied by a `factor`, at the frequencies
+/// at which a `rough` body passes.
 fn beyond(
     name: &str,
     MasterCurve { points, .. }: &MasterCurve,

@@ -9,12 +9,13 @@ use asperity_base::units::{Metre, SquareMetre};
 ///
 /// R(τ) = ⟨z(x) z(x + τ)⟩,  R(0) = Sq²
 ///
-/// The mean is over all pairs of defined samples τ apart, with heights relative to their mean. Pairs with an undefined
-/// sample are ignored, so that holes increase the scatter but cause no bias. A lag without any pair is NaN. No tilt or form
-/// is removed: level first.
+/// The mean is over all pairs of defined samples τ apart, with heights relative to their mean. Pairs with an
+/// undefined sample are ignored, so that holes increase the scatter but cause no bias. A lag without any pair
+/// is NaN. No tilt or form is removed: level first.
 ///
-/// Lags extend to half the topography along x and y, where a nonperiodic one still has a quarter of its pairs. The
-/// autocorrelation function of ISO 25178-2 is R(τ)/R(0). It is computed by the Fourier transform (Wiener–Khinchin).
+/// Lags extend to half the topography along x and y, where a nonperiodic one still has a quarter of its
+/// pairs. The autocorrelation function of ISO 25178-2 is R(τ)/R(0). It is computed by the Fourier transform
+/// (Wiener–Khinchin).
 #[derive(Debug, Clone)]
 pub struct Correlation {
     pitch: [Metre; 2],
@@ -43,8 +44,8 @@ impl Correlation {
             fft.inverse_leading(&power, [period[0], longest[1] + 1])
         };
         let heights = topography.heights();
-        // Heights are first taken relative to one of them: equal heights then give exactly 0, without the round-off of
-        // their mean.
+        // Heights are first taken relative to one of them: equal heights then give exactly 0, without the
+        // round-off of their mean.
         let first = heights.iter().copied().find(|z| !z.is_nan()).unwrap_or(0.0);
         let defined = heights.iter().filter(|z| !z.is_nan());
         let mean = first + defined.map(|z| z - first).sum::<f64>() / topography.defined() as f64;
@@ -67,8 +68,8 @@ impl Correlation {
         Self { pitch: topography.grid().pitch, values }
     }
 
-    /// R at all lags, m², of shape `[2 mx + 1, 2 my + 1]`, with m half the number of samples. The entry `[mx + i, my + j]`
-    /// belongs to the lag of i samples along x and j along y.
+    /// R at all lags, m², of shape `[2 mx + 1, 2 my + 1]`, with m half the number of samples. The entry
+    /// `[mx + i, my + j]` belongs to the lag of i samples along x and j along y.
     pub fn values(&self) -> &Field {
         &self.values
     }
@@ -88,8 +89,8 @@ impl Correlation {
         line.iter().skip(line.len() / 2).enumerate().map(|(n, r)| (n as f64 * pitch, *r)).collect()
     }
 
-    /// Averages R over all directions. The rings are |τ| = n Δ, with Δ the larger pitch, as far as they lie within the
-    /// lags. Returns the mean |τ| of each ring and the mean R. Lags without a pair are left out.
+    /// Averages R over all directions. The rings are |τ| = n Δ, with Δ the larger pitch, as far as they lie
+    /// within the lags. Returns the mean |τ| of each ring and the mean R. Lags without a pair are left out.
     pub fn radial(&self) -> Vec<(Metre, SquareMetre)> {
         // A direction with a single sample is ignored.
         let several = |axis: &usize| self.values.shape()[*axis] > 1;
@@ -112,11 +113,11 @@ impl Correlation {
         filled.map(|[distance, sum, count]| (distance / count, sum / count)).collect()
     }
 
-    /// Returns the lag at which R(τ)/R(0) first falls to `level`, < 1, in the direction `angle` from the x axis towards the
-    /// y axis, in radians; NaN if it does not within the lags.
+    /// Returns the lag at which R(τ)/R(0) first falls to `level`, < 1, in the direction `angle` from the x
+    /// axis towards the y axis, in radians; NaN if it does not within the lags.
     ///
-    /// Between the samples R is interpolated by cubic convolution (Keys, IEEE Trans. Acoust. Speech Signal Process. 29,
-    /// 1153, 1981), which is of third order.
+    /// Between the samples R is interpolated by cubic convolution (Keys, IEEE Trans. Acoust. Speech Signal
+    /// Process. 29, 1153, 1981), which is of third order.
     pub fn decay_length(&self, angle: f64, level: f64) -> Metre {
         if self.variance() == 0.0 {
             return f64::NAN;
@@ -141,9 +142,9 @@ impl Correlation {
         }
     }
 
-    /// Returns the shortest and the longest [`Correlation::decay_length`] to `level` over all directions: those of fastest
-    /// and of slowest decay. The first is NaN if R falls to the level in no direction within the lags, the second if R does
-    /// not in some direction.
+    /// Returns the shortest and the longest [`Correlation::decay_length`] to `level` over all directions:
+    /// those of fastest and of slowest decay. The first is NaN if R falls to the level in no direction within
+    /// the lags, the second if R does not in some direction.
     pub fn decay_lengths(&self, level: f64) -> [Metre; 2] {
         // Enough directions that they are about a sample apart at the longest lag, both axes included.
         let [mx, my] = self.longest();
@@ -175,8 +176,8 @@ impl Correlation {
     }
 }
 
-/// Returns the samples, from 0 to `last`, used for the value at `position` by cubic convolution, and their weights. Beyond
-/// the ends the outermost sample repeats.
+/// Returns the samples, from 0 to `last`, used for the value at `position` by cubic convolution, and their
+/// weights. Beyond the ends the outermost sample repeats.
 fn cubic_weights(position: f64, last: usize) -> [(usize, f64); 4] {
     let below = position.floor();
     let t = position - below;
@@ -295,8 +296,9 @@ mod tests {
 
     #[test]
     fn holes_leave_it_unbiased() {
-        // 20 % of the samples missing: at short lags R is as without holes, except for the missing pairs. The two differ by
-        // the scatter of a mean over the pairs present in only one of them, n' = 0.36 n/(1 − 0.36).
+        // 20 % of the samples missing: at short lags R is as without holes, except for the missing pairs. The
+        // two differ by the scatter of a mean over the pairs present in only one of them, n' = 0.36 n/(1 −
+        // 0.36).
         let whole = rough([256, 256], [1.0; 2], [12.0; 2], 3);
         let holed = with_holes(whole.clone(), 5);
         assert_relative_eq!(holed.undefined() as f64, 0.2 * 65536.0, max_relative = 0.05);
@@ -329,7 +331,8 @@ mod tests {
 
     #[test]
     fn a_gaussian_decays_to_a_fifth_at_its_length_times_the_root_of_ln_5() {
-        // R = exp(−(ξ/3)² − η²), with ξ and η rotated by 30°. In the direction φ from ξ: (cos²φ/9 + sin²φ)^(−1/2) √ln 5.
+        // R = exp(−(ξ/3)² − η²), with ξ and η rotated by 30°. In the direction φ from ξ: (cos²φ/9 +
+        // sin²φ)^(−1/2) √ln 5.
         let correlation = |pitch: f64| {
             let (sin, cos) = FRAC_PI_6.sin_cos();
             let r =
@@ -350,8 +353,8 @@ mod tests {
         let (coarse, fine) = (error(0.25), error(0.125));
         let order = (coarse / fine).log2();
         assert!(2.7 < order && fine < 1e-3, "error {coarse:e} → {fine:e} is order {order:.2}");
-        // The extrema lie on directions π/n apart, up to half of that away, where the squared length differs by (3² − 1)
-        // (π/2n)².
+        // The extrema lie on directions π/n apart, up to half of that away, where the squared length differs
+        // by (3² − 1) (π/2n)².
         for pitch in [0.25, 0.125] {
             let [fastest, slowest] = correlation(pitch).decay_lengths(0.2);
             let beside = 0.5 * 8.0 * (0.5 * pitch / 6.0).powi(2);

@@ -28,7 +28,8 @@ pub enum Form {
     },
     /// z = −x²/2Rx − y²/2Ry: the paraboloid that approximates an ellipsoid, or a crowned roller.
     Ellipsoid {
-        /// Principal radii of curvature; an ellipsoid with semi-axes a, b and c, c normal to the plane, has a²/c and b²/c.
+        /// Principal radii of curvature; an ellipsoid with semi-axes a, b and c, c normal to the plane, has
+        /// a²/c and b²/c.
         ///
         /// Rx and Ry at the apex, > 0: in the planes y = 0 and x = 0.
         #[key(
@@ -80,11 +81,11 @@ pub enum Form {
         #[serde(serialize_with = "or_infs")]
         wavelength: [Metre; 2],
     },
-    /// z = −d p(u), parallel grooves with ridges of height 0 between them. u is the distance from a ridge over the period,
-    /// and one ridge passes through the centre.
+    /// z = −d p(u), parallel grooves with ridges of height 0 between them. u is the distance from a ridge
+    /// over the period, and one ridge passes through the centre.
     ///
-    /// Turning with a feed f and a tool of nose radius r gives parabolic grooves with period f and depth d = f²/8r. Then
-    /// Sa/d is 4/(9√3) = 0.257 and Sq/d is 2/(3√5) = 0.298.
+    /// Turning with a feed f and a tool of nose radius r gives parabolic grooves with period f and depth d =
+    /// f²/8r. Then Sa/d is 4/(9√3) = 0.257 and Sq/d is 2/(3√5) = 0.298.
     Grooves {
         /// Distance from ridge to ridge, at least two pitches.
         #[key(quantity = Length, range = AboveZero, example = "\"0.1 mm\"", exists = exists::LENGTH, beside = [beside::LONG])]
@@ -149,7 +150,8 @@ impl Form {
     /// Creates the topography of this form on `grid`.
     ///
     /// # Errors
-    /// [`asperity_base::Error::OutOfRange`] if a parameter is invalid, or if a wavelength is below two pitches.
+    /// [`asperity_base::Error::OutOfRange`] if a parameter is invalid, or if a wavelength is below two
+    /// pitches.
     pub fn on(&self, grid: &Grid) -> Result<Topography> {
         Topography::new(*grid, self.rows_on(grid, 0..grid.shape[0], false)?)
     }
@@ -299,7 +301,8 @@ mod tests {
         {
             let form = Form::Grooves { period: 100.0, depth: 2.0, profile: Groove::Parabolic, lay };
             let parameters = HeightParameters::of(&form.on(&Grid::new(shape, [1.0; 2]).unwrap()).unwrap());
-            // Whole periods are accurate to the square of pitch/period; across the grid the number of periods is not whole.
+            // Whole periods are accurate to the square of pitch/period; across the grid the number of periods
+            // is not whole.
             let tolerance = if lay == 0.6 { 0.02 } else { 1e-3 };
             assert_relative_eq!(parameters.sa, 2.0 * 4.0 / 243f64.sqrt(), max_relative = tolerance);
             assert_relative_eq!(parameters.sq, 2.0 * 2.0 / 45f64.sqrt(), max_relative = tolerance);

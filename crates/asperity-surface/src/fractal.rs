@@ -7,18 +7,20 @@ use crate::{Axis, SpectralPoint, Topography};
 use asperity_base::error::{Result, check};
 use asperity_base::units::{Metre, RadianPerMetre, SquareMetre};
 
-/// A surface that is statistically the same at every scale, if heights are scaled by the length to the power of H:
+/// A surface that is statistically the same at every scale, if heights are scaled by the length to the power
+/// of H:
 ///
 /// C^iso(q) ∝ q^(−2−2H),  ⟨(z(x + τ) − z(x))²⟩ ∝ τ^(2H)
 ///
-/// The fit is the least-squares line through the logarithms, with equal weights. Mandelbrot, *The Fractal Geometry of
-/// Nature* (1982); Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017).
+/// The fit is the least-squares line through the logarithms, with equal weights. Mandelbrot, *The Fractal
+/// Geometry of Nature* (1982); Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SelfAffinity {
     /// Hurst exponent H; a self-affine surface has 0 < H < 1.
     pub hurst: f64,
-    /// Standard error of H, from the scatter of the points about the law. The scatter may differ from point to point, and
-    /// is larger for points of few waves. MacKinnon & White, J. Econometrics 29, 305 (1985), HC3.
+    /// Standard error of H, from the scatter of the points about the law. The scatter may differ from point
+    /// to point, and is larger for points of few waves. MacKinnon & White, J. Econometrics 29, 305 (1985),
+    /// HC3.
     pub hurst_error: f64,
     /// First and last abscissa fitted: wave numbers in rad/m, or lags in metres.
     pub range: [f64; 2],
@@ -27,8 +29,8 @@ pub struct SelfAffinity {
 }
 
 impl SelfAffinity {
-    /// Fits the law to the points of a mean over all directions ([`crate::Spectrum::radial`], best in logarithmic
-    /// rings) with wave numbers within `range`.
+    /// Fits the law to the points of a mean over all directions ([`crate::Spectrum::radial`], best in
+    /// logarithmic rings) with wave numbers within `range`.
     ///
     /// # Errors
     /// [`asperity_base::Error::OutOfRange`] if there are fewer than three.
@@ -37,10 +39,10 @@ impl SelfAffinity {
         Ok(Self::of_densities(&Line::within(range, points)?))
     }
 
-    /// Fits the law to the longest range of wave numbers, without roll-off and cut-off. In the range, no point deviates
-    /// from the fit by more than a tenth plus three standard errors √(2/waves), in the logarithm. Points of fewer than a
-    /// hundred waves, which would fit any law, are left out. On a measured surface the instrument may determine the law in
-    /// this range; an H beyond 0 … 1 indicates it.
+    /// Fits the law to the longest range of wave numbers, without roll-off and cut-off. In the range, no
+    /// point deviates from the fit by more than a tenth plus three standard errors √(2/waves), in the
+    /// logarithm. Points of fewer than a hundred waves, which would fit any law, are left out. On a measured
+    /// surface the instrument may determine the law in this range; an H beyond 0 … 1 indicates it.
     ///
     /// # Errors
     /// [`asperity_base::Error::OutOfRange`] if there is no such range of three points.
@@ -68,10 +70,11 @@ impl SelfAffinity {
         Ok(Self::of_densities(&best.expect("checked")))
     }
 
-    /// Fits the law to the mean square differences of height ([`Topography::height_differences`]) with lags within `range`.
+    /// Fits the law to the mean square differences of height ([`Topography::height_differences`]) with lags
+    /// within `range`.
     ///
-    /// A limited range of waves bends the curve beyond its ends. A lag should be at least ten times the shortest wavelength
-    /// and at most a tenth of the longest. The spectrum is more reliable.
+    /// A limited range of waves bends the curve beyond its ends. A lag should be at least ten times the
+    /// shortest wavelength and at most a tenth of the longest. The spectrum is more reliable.
     ///
     /// # Errors
     /// [`asperity_base::Error::OutOfRange`] if there are fewer than three.
@@ -85,9 +88,9 @@ impl SelfAffinity {
         (self.range[1] / self.range[0]).log10()
     }
 
-    /// Returns the reason, if any, why the exponent is only a slope of the spectrum and not a law of the surface. Either H
-    /// is outside 0 … 1, which no self-affine surface has, or the range is less than a decade, over which any smooth curve
-    /// is nearly straight.
+    /// Returns the reason, if any, why the exponent is only a slope of the spectrum and not a law of the
+    /// surface. Either H is outside 0 … 1, which no self-affine surface has, or the range is less than a
+    /// decade, over which any smooth curve is nearly straight.
     pub fn doubt(&self) -> Option<String> {
         /// Rounding tolerance of a range of wavelengths.
         const CRUMB: f64 = 1e-9;
@@ -121,12 +124,12 @@ impl SelfAffinity {
 }
 
 impl Topography {
-    /// Computes the mean square difference of heights separated by a lag along `axis`, ⟨(z(x + τ) − z(x))²⟩. This is the
-    /// structure function, twice the variogram; 2 Sq² (1 − R(τ)/R(0)) for a stationary surface. The mean is over the pairs
-    /// of defined samples.
+    /// Computes the mean square difference of heights separated by a lag along `axis`, ⟨(z(x + τ) − z(x))²⟩.
+    /// This is the structure function, twice the variogram; 2 Sq² (1 − R(τ)/R(0)) for a stationary surface.
+    /// The mean is over the pairs of defined samples.
     ///
-    /// The lags are 1, 2, … samples, growing by about √2 to half the topography, each in metres. Lags without a pair are
-    /// left out. Sayles & Thomas, Wear 42, 263 (1977).
+    /// The lags are 1, 2, … samples, growing by about √2 to half the topography, each in metres. Lags without
+    /// a pair are left out. Sayles & Thomas, Wear 42, 263 (1977).
     pub fn height_differences(&self, axis: Axis) -> Vec<(Metre, SquareMetre)> {
         let axis = match axis {
             Axis::X => 0,
@@ -229,8 +232,8 @@ mod tests {
                 mean += fit.hurst / seeds as f64;
                 variance += fit.hurst_error.powi(2) / (seeds * seeds) as f64;
             }
-            // The window smears the power law p over a step of 1/8 of its lowest wave number: p² (1/8)²/2 there, and less
-            // elsewhere. The slope over a decade changes by the fraction 1/ln 10 of it.
+            // The window smears the power law p over a step of 1/8 of its lowest wave number: p² (1/8)²/2
+            // there, and less elsewhere. The slope over a decade changes by the fraction 1/ln 10 of it.
             let smearing = 0.5 * (2.0 + 2.0 * hurst).powi(2) / 64.0 / 2.0 / std::f64::consts::LN_10;
             assert!(
                 (mean - hurst).abs() < 4.0 * variance.sqrt() + smearing,

@@ -1,5 +1,5 @@
-//! Surface topography: files of profilometers and microscopes, roughness parameters of ISO 25178, ISO 21920 and ISO 13565,
-//! filters, generated surfaces.
+//! Surface topography: files of profilometers and microscopes, roughness parameters of ISO 25178, ISO 21920
+//! and ISO 13565, filters, generated surfaces.
 //!
 //! ```
 //! # #[cfg(feature = "zip")] {
@@ -17,8 +17,9 @@
 //!
 //! # Conventions
 //!
-//! Heights are in metres, a matrix indexed `[ix, iy]`, with the material below and z up, as they are measured. Everything
-//! else is SI, too. A missing height is NaN. Parameters take the defined heights as they are: level and filter first.
+//! Heights are in metres, a matrix indexed `[ix, iy]`, with the material below and z up, as they are
+//! measured. Everything else is SI, too. A missing height is NaN. Parameters take the defined heights as they
+//! are: level and filter first.
 //!
 //! | you have | use | you get |
 //! |---|---|---|
@@ -43,14 +44,16 @@
 //! | `tiff` | TIFF | tiff |
 //! | `compound` | mnt | cfb |
 //!
-//! A file of a format that is left out is an error that names the feature. Without any of them, all but files remains.
+//! A file of a format that is left out is an error that names the feature. Without any of them, all but files
+//! remains.
 //!
 //! # Errors
 //!
-//! [`Error`] is shared with the crates of contact mechanics above. Functions here return those of its variants that concern
-//! input ([`Error::OutOfRange`], [`Error::UndefinedSamples`], …), files ([`Error::NotATopography`], [`Error::CorruptTopography`],
-//! [`Error::NoChannel`], [`Error::NoPitch`], [`Error::File`], …) and [`Error::Interrupted`]. [`Error::hint`] says what to do.
-//! No file makes a reader panic.
+//! [`Error`] is shared with the crates of contact mechanics above. Functions here return those of its
+//! variants that concern input ([`Error::OutOfRange`], [`Error::UndefinedSamples`], …), files
+//! ([`Error::NotATopography`], [`Error::CorruptTopography`], [`Error::NoChannel`], [`Error::NoPitch`],
+//! [`Error::File`], …) and [`Error::Interrupted`]. [`Error::hint`] says what to do. No file makes a reader
+//! panic.
 //!
 //! # References
 //!

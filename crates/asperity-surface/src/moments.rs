@@ -13,11 +13,13 @@ use asperity_base::units::SquareMetre;
 ///
 /// m₀ = ⟨z²⟩,  m₂ = ⟨(∂z/∂x)²⟩ = ∫ qx² C d²q/(2π)²,  m₄ = ⟨(∂²z/∂x²)²⟩ = ∫ qx⁴ C d²q/(2π)²
 ///
-/// Longuet-Higgins, Phil. Trans. R. Soc. A 249, 321 (1957); Nayak, J. Lubr. Technol. 93, 398 (1971). m₂ and m₄ depend
-/// mainly on the shortest waves. For a self-affine surface they depend on the cut-off, which may be that of the grid.
+/// Longuet-Higgins, Phil. Trans. R. Soc. A 249, 321 (1957); Nayak, J. Lubr. Technol. 93, 398 (1971). m₂ and
+/// m₄ depend mainly on the shortest waves. For a self-affine surface they depend on the cut-off, which may be
+/// that of the grid.
 ///
-/// With the spectrum ([`Spectrum::moments`]) the derivatives are exact up to the shortest wave resolved by the grid. With
-/// differences ([`SpectralMoments::by_differences`]) they are those between neighbouring samples, which reduce short waves.
+/// With the spectrum ([`Spectrum::moments`]) the derivatives are exact up to the shortest wave resolved by
+/// the grid. With differences ([`SpectralMoments::by_differences`]) they are those between neighbouring
+/// samples, which reduce short waves.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SpectralMoments {
     /// Variance of the heights, m².
@@ -31,7 +33,8 @@ pub struct SpectralMoments {
 impl Spectrum {
     /// Computes the spectral moments as integrals over the spectrum.
     ///
-    /// A window smears each wave over its neighbours: Hann's adds (2π/L)² m₀/3 to m₂, with L the length along the axis.
+    /// A window smears each wave over its neighbours: Hann's adds (2π/L)² m₀/3 to m₂, with L the length along
+    /// the axis.
     pub fn moments(&self) -> SpectralMoments {
         let along = |power: i32| [0, 1].map(|axis| self.sum(|q: [f64; 2]| q[axis].powi(power)));
         SpectralMoments { m0: self.variance(), m2: along(2), m4: along(4) }
@@ -43,9 +46,10 @@ impl SpectralMoments {
     ///
     /// m₂ = ⟨((z₊₁ − z)/Δx)²⟩,  m₄ = ⟨((z₊₁ − 2z + z₋₁)/Δx²)²⟩
     ///
-    /// over all places with defined samples, with heights relative to their mean. A wave counts with qⁿ sincⁿ(qΔx/2) in
-    /// place of qⁿ: at ten samples per wave m₂ is 3 % and m₄ 6 % too small. A single sample along a direction has zero
-    /// slope and curvature there. Without defined neighbours they are NaN. McCool, J. Tribol. 109, 264 (1987).
+    /// over all places with defined samples, with heights relative to their mean. A wave counts with qⁿ
+    /// sincⁿ(qΔx/2) in place of qⁿ: at ten samples per wave m₂ is 3 % and m₄ 6 % too small. A single sample
+    /// along a direction has zero slope and curvature there. Without defined neighbours they are NaN. McCool,
+    /// J. Tribol. 109, 264 (1987).
     pub fn by_differences(topography: &Topography) -> Self {
         let Grid { shape, pitch } = *topography.grid();
         let mean = topography.mean();
@@ -80,8 +84,8 @@ impl SpectralMoments {
         0.5 * (self.m4[0] + self.m4[1])
     }
 
-    /// Nayak's bandwidth parameter α = m₀m₄/m₂², from the means over x and y: 3/2 for an isotropic surface with a single
-    /// wavelength, unbounded for a broad spectrum. Nayak (1971).
+    /// Nayak's bandwidth parameter α = m₀m₄/m₂², from the means over x and y: 3/2 for an isotropic surface
+    /// with a single wavelength, unbounded for a broad spectrum. Nayak (1971).
     pub fn bandwidth(&self) -> f64 {
         self.m0 * self.mean_m4() / self.mean_m2().powi(2)
     }
@@ -90,8 +94,8 @@ impl SpectralMoments {
     ///
     /// η = m₄/(6π√3 m₂),  R = 3√π/(8√m₄),  σs² = (1 − 0.8968/α) m₀,  z̄s = 4 √(m₀/πα)
     ///
-    /// Nayak (1971) for η; Bush, Gibson & Keogh, Mech. Res. Commun. 3, 169 (1976) and McCool, J. Tribol. 109, 264 (1987)
-    /// for the rest. σs is NaN for α < 0.8968, which no isotropic surface has.
+    /// Nayak (1971) for η; Bush, Gibson & Keogh, Mech. Res. Commun. 3, 169 (1976) and McCool, J. Tribol. 109,
+    /// 264 (1987) for the rest. σs is NaN for α < 0.8968, which no isotropic surface has.
     pub fn greenwood_williamson(&self) -> GreenwoodWilliamson {
         let (m0, m2, m4) = (self.m0, self.mean_m2(), self.mean_m4());
         let bandwidth = self.bandwidth();
@@ -178,8 +182,9 @@ mod tests {
 
     #[test]
     fn a_disc_of_waves_has_a_bandwidth_of_two() {
-        // C constant up to q_c: ⟨qx²⟩ = q_c²/4 and ⟨qx⁴⟩ = q_c⁴/8. Of the π (L/λ)² waves half are independent, and the
-        // relative scatter of each moment is less than twice that of its power. Hann's window leaves 1 in (35/18)² of them.
+        // C constant up to q_c: ⟨qx²⟩ = q_c²/4 and ⟨qx⁴⟩ = q_c⁴/8. Of the π (L/λ)² waves half are
+        // independent, and the relative scatter of each moment is less than twice that of its power. Hann's
+        // window leaves 1 in (35/18)² of them.
         let grid = Grid::new([256, 256], [1.0; 2]).unwrap();
         let heights = LowPass::new(1.0, [8.0; 2]).generate(&grid, 3).unwrap();
         let moments = Spectrum::of(&heights, Window::Hann).moments();

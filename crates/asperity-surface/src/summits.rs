@@ -9,13 +9,13 @@ use asperity_base::units::{Metre, SquareMetre};
 
 /// The summits of a topography: samples higher than their eight neighbours.
 ///
-/// A plateau of equal heights is one summit if no neighbour is as high; its position is that of its first sample in memory
-/// order. Samples on the boundary or beside an undefined one are not judged, nor are plateaus with such a sample. The
-/// density refers to the area of the judged samples.
+/// A plateau of equal heights is one summit if no neighbour is as high; its position is that of its first
+/// sample in memory order. Samples on the boundary or beside an undefined one are not judged, nor are
+/// plateaus with such a sample. The density refers to the area of the judged samples.
 ///
-/// The summits depend on the pitch: on a sampled surface some are missed, and noise adds others (Greenwood, Proc. R. Soc. A
-/// 393, 133, 1984). With eight samples per shortest wave of an isotropic Gaussian surface, the density is accurate to 1 %
-/// and the radius 5 % too large, with twelve 2 %.
+/// The summits depend on the pitch: on a sampled surface some are missed, and noise adds others (Greenwood,
+/// Proc. R. Soc. A 393, 133, 1984). With eight samples per shortest wave of an isotropic Gaussian surface,
+/// the density is accurate to 1 % and the radius 5 % too large, with twelve 2 %.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summits {
     /// The summits, in memory order.
@@ -35,8 +35,8 @@ pub struct Summit {
     pub curvature: f64,
 }
 
-/// A rough surface in the model of Greenwood & Williamson, Proc. R. Soc. A 295, 300 (1966): asperities with spherical tips
-/// of equal radius and Gaussian heights.
+/// A rough surface in the model of Greenwood & Williamson, Proc. R. Soc. A 295, 300 (1966): asperities with
+/// spherical tips of equal radius and Gaussian heights.
 ///
 /// Determined from the surface by [`Summits::greenwood_williamson`], or from the theory of random surfaces by
 /// [`crate::SpectralMoments::greenwood_williamson`].
@@ -76,8 +76,8 @@ impl Summits {
         Self { summits, area: judged as f64 * grid.cell_area() }
     }
 
-    /// Computes the density, the mean height, its standard deviation and the radius of the mean curvature; NaN for those
-    /// that need more summits than found.
+    /// Computes the density, the mean height, its standard deviation and the radius of the mean curvature;
+    /// NaN for those that need more summits than found.
     pub fn greenwood_williamson(&self) -> GreenwoodWilliamson {
         let count = self.summits.len() as f64;
         let mean = |f: &dyn Fn(&Summit) -> f64| self.summits.iter().map(f).sum::<f64>() / count;
@@ -91,7 +91,8 @@ impl Summits {
     }
 }
 
-/// Returns the highest of the eight heights around a sample; `None` if it or one of them is undefined or off the grid.
+/// Returns the highest of the eight heights around a sample; `None` if it or one of them is undefined or off
+/// the grid.
 fn highest_neighbour(z: &Field, [ix, iy]: [usize; 2]) -> Option<f64> {
     let inside = |index: usize, n: usize| index > 0 && index + 1 < n;
     if !(inside(ix, z.nrows()) && inside(iy, z.ncols())) || z[[ix, iy]].is_nan() {
@@ -163,12 +164,13 @@ mod tests {
         let grid = Grid::new([61, 51], [0.5, 1.0]).unwrap();
         let z = Form::Sinusoid { amplitude: 2.0, wavelength: [10.0, 25.0] }.on(&grid).unwrap();
         let found = Summits::of(&z);
-        // cos·cos has crests at (m λx, n λy) from the centre and at (m + ½, n + ½) between: inside the boundary 3 × 1 and
-        // 2 × 2.
+        // cos·cos has crests at (m λx, n λy) from the centre and at (m + ½, n + ½) between: inside the
+        // boundary 3 × 1 and 2 × 2.
         assert_eq!(found.summits.len(), 7);
         let curvature = 2.0 * 0.5 * ((TAU / 10.0f64).powi(2) + (TAU / 25.0f64).powi(2));
         for summit in &found.summits {
-            // Second differences: relative error (qΔ)²/12; samples up to half a pitch from the crest: (qΔ)²/8.
+            // Second differences: relative error (qΔ)²/12; samples up to half a pitch from the crest:
+            // (qΔ)²/8.
             assert_relative_eq!(summit.curvature, curvature, max_relative = (TAU / 20.0f64).powi(2) / 4.0);
         }
     }
@@ -228,8 +230,8 @@ mod tests {
         let density = q2 / 2.0 / (6.0 * pi * 3f64.sqrt());
         let radius = 3.0 * pi.sqrt() * 8f64.sqrt() / (8.0 * q2);
         let (mean_height, deviation) = (4.0 / (2.0 * pi).sqrt(), (1.0 - 0.4484f64).sqrt());
-        // Summits repel each other, so that their number scatters less than that of independent ones. Sampling lowers the
-        // curvature by (qΔ)²/12 of its waves, and heights by no more.
+        // Summits repel each other, so that their number scatters less than that of independent ones.
+        // Sampling lowers the curvature by (qΔ)²/12 of its waves, and heights by no more.
         let count = all.summits.len() as f64;
         let (error, sampling) = (4.0 / count.sqrt(), q2 / 4.0);
         assert_relative_eq!(found.density, density, max_relative = error + sampling);

@@ -15,7 +15,8 @@ impl Topography {
     /// Creates a topography with these `heights`, each finite, or NaN if undefined.
     ///
     /// # Errors
-    /// [`Error::GridMismatch`] if the shapes of heights and grid differ, [`Error::OutOfRange`] if a height is infinite.
+    /// [`Error::GridMismatch`] if the shapes of heights and grid differ, [`Error::OutOfRange`] if a height is
+    /// infinite.
     pub fn new(grid: Grid, heights: Field) -> Result<Self> {
         if heights.shape() != grid.shape {
             return Err(Error::GridMismatch {

@@ -1,8 +1,8 @@
 //! Plans of Fourier transforms for numbers in single and double precision.
 //!
-//! The planners of `rustfft` and `realfft` are generic, so every crate that calls them compiles all their transforms
-//! again. This crate compiles them once for `f32` and once for `f64`. The library `asperity` uses trait objects and
-//! compiles none of them.
+//! The planners of `rustfft` and `realfft` are generic, so every crate that calls them compiles all their
+//! transforms again. This crate compiles them once for `f32` and once for `f64`. The library `asperity` uses
+//! trait objects and compiles none of them.
 
 use std::sync::Arc;
 

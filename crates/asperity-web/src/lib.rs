@@ -1,7 +1,8 @@
 //! The functions of asperity for a page in a browser.
 //!
-//! Everything works on named files in memory. A name is a path with `/` between folders, such as `quickstart/results/summary.json`. Paths in a
-//! case file are relative to its folder. No function waits or asks for a network: call them from a worker.
+//! Everything works on named files in memory. A name is a path with `/` between folders, such as
+//! `quickstart/results/summary.json`. Paths in a case file are relative to its folder. No function waits or
+//! asks for a network: call them from a worker.
 //!
 //! | group | functions |
 //! |---|---|
@@ -11,10 +12,12 @@
 //! | runs | `check`, `run`, `report`, `figures`, `figure` |
 //! | program | `version` |
 //!
-//! Answers are texts of JSON, numbers in SI, unless a function says otherwise. A function fails with an `Error` of JavaScript: `name` is the cause
-//! (`Case`, `File`, `CorruptTopography`, `BeyondPlasticLimit`, `Interrupted`, …), `message` a sentence, and, if there is one, `hint` what to do,
-//! `key` the key of the case file (`lower.topography.file`), `line` and `column` its place from 1, `available` the channels of a file. If memory
-//! cannot be had or the program breaks, the module traps with a `WebAssembly.RuntimeError` and must not be used again: end its worker.
+//! Answers are texts of JSON, numbers in SI, unless a function says otherwise. A function fails with an
+//! `Error` of JavaScript: `name` is the cause (`Case`, `File`, `CorruptTopography`, `BeyondPlasticLimit`,
+//! `Interrupted`, …), `message` a sentence, and, if there is one, `hint` what to do, `key` the key of the
+//! case file (`lower.topography.file`), `line` and `column` its place from 1, `available` the channels of a
+//! file. If memory cannot be had or the program breaks, the module traps with a `WebAssembly.RuntimeError`
+//! and must not be used again: end its worker.
 //!
 //! ```text
 //! put(name: string, bytes: Uint8Array): void                    creates or replaces a file
@@ -63,7 +66,8 @@
 //! version(): string
 //! ```
 //!
-//! After a worker has been ended, a new one continues: `put` each file of the results, then `run` with `"resume"`.
+//! After a worker has been ended, a new one continues: `put` each file of the results, then `run` with
+//! `"resume"`.
 
 #[cfg(target_arch = "wasm32")]
 #[expect(unreachable_pub, reason = "JavaScript calls them")]

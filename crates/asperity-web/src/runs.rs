@@ -52,8 +52,8 @@ pub fn check(case: &str) -> Result<Value> {
     Ok(answer)
 }
 
-/// Runs the case of a file, writes its results into a folder, and returns its summary. `tell` gets each event, and asks to
-/// stop by `true`.
+/// Runs the case of a file, writes its results into a folder, and returns its summary. `tell` gets each
+/// event, and asks to stop by `true`.
 pub fn run(case: &str, folder: &str, existing: &str, tell: fn(&Value) -> bool) -> Result<Value> {
     let existing = match existing {
         "keep" => Existing::Keep,

@@ -1,4 +1,5 @@
-//! Runs whose files are in memory: those of the command, byte by byte but for times, and resumed after a stop.
+//! Runs whose files are in memory: those of the command, byte by byte but for times, and resumed after a
+//! stop.
 
 use std::collections::BTreeMap;
 use std::path::Path;

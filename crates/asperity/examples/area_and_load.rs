@@ -2,8 +2,8 @@
 //!
 //! # Problem
 //!
-//! Two rough steel surfaces are pressed together. They touch at their summits only. How large is the real contact area A,
-//! as a fraction of the apparent area A₀, at a mean pressure p̄ = W/A₀?
+//! Two rough steel surfaces are pressed together. They touch at their summits only. How large is the real
+//! contact area A, as a fraction of the apparent area A₀, at a mean pressure p̄ = W/A₀?
 //!
 //! # Mathematics
 //!
@@ -13,8 +13,9 @@
 //! A/A₀ = κ p̄/(E* h′),   h′ the rms slope of the gap
 //! ```
 //!
-//! with κ from √(8/π) ≈ 1.6 (Persson) to √(2π) ≈ 2.5 (Bush, Gibson & Thomas). Near full contact it grows more slowly. A
-//! finite grid overestimates the area by half a cell around each contact spot, so that κ is slightly too large.
+//! with κ from √(8/π) ≈ 1.6 (Persson) to √(2π) ≈ 2.5 (Bush, Gibson & Thomas). Near full contact it grows more
+//! slowly. A finite grid overestimates the area by half a cell around each contact spot, so that κ is
+//! slightly too large.
 //!
 //! # Program
 //!
@@ -35,8 +36,8 @@
 //!      2000   0.8305   1.35           17.1
 //! ```
 //!
-//! At small loads a contact spot has few cells, and its edge has the largest effect. From about ten per cent of contact the
-//! spots begin to merge.
+//! At small loads a contact spot has few cells, and its edge has the largest effect. From about ten per cent
+//! of contact the spots begin to merge.
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 
 use asperity::Grid;

@@ -4,8 +4,8 @@
 //! conductance_cost [512] [3]
 //! ```
 //!
-//! For each boundary, contact fraction and joint it prints the least of some times of both in milliseconds, their ratio, and the
-//! operator calls of both.
+//! For each boundary, contact fraction and joint it prints the least of some times of both in milliseconds,
+//! their ratio, and the operator calls of both.
 #![expect(clippy::print_stdout, reason = "the times are what it is for")]
 
 use std::error::Error;

@@ -2,8 +2,9 @@
 //!
 //! # Problem
 //!
-//! Müser et al., Tribol. Lett. 65, 118 (2017), asked many groups for the same contact: an elastic body on a rough rigid surface
-//! that attracts it. Which area touches, how wide is the gap, and how large are the pressures and the patches in contact?
+//! Müser et al., Tribol. Lett. 65, 118 (2017), asked many groups for the same contact: an elastic body on a
+//! rough rigid surface that attracts it. Which area touches, how wide is the gap, and how large are the
+//! pressures and the patches in contact?
 //!
 //! # Mathematics
 //!
@@ -12,15 +13,15 @@
 //! periodic, 100 µm wide; self-affine, Hurst exponent 0.8, waves from 20 µm to 0.1 µm, rms slope 1
 //! ```
 //!
-//! A grid has no waves shorter than four cells here. Without them the rms slope is below 1, so that the spectrum is the same on all
-//! grids. From 4096² on, all waves are present.
+//! A grid has no waves shorter than four cells here. Without them the rms slope is below 1, so that the
+//! spectrum is the same on all grids. From 4096² on, all waves are present.
 //!
 //! # Program
 //!
 //! `cargo run --release -p asperity --example contact_challenge -- CELLS SEED RANGE [WIDTH_UM [LOADS]]`
 //!
-//! RANGE is `none`, `true`, `grid` or a length in nanometres. LOADS are mean pressures over 250 kPa, separated by commas. Each load
-//! goes on from the one before.
+//! RANGE is `none`, `true`, `grid` or a length in nanometres. LOADS are mean pressures over 250 kPa,
+//! separated by commas. Each load goes on from the one before.
 //!
 //! # Result
 //!
@@ -109,8 +110,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Mean square slope of the waves up to a width, over that of a reference amplitude: ∫ q³ C(q) dq, with C constant for waves longer
-/// than the roll-off.
+/// Mean square slope of the waves up to a width, over that of a reference amplitude: ∫ q³ C(q) dq, with C
+/// constant for waves longer than the roll-off.
 fn mean_square_slope(width: f64, shortest: f64) -> f64 {
     let wave = |length: f64| std::f64::consts::TAU / length;
     let [longest, roll_off, shortest] = [width, ROLL_OFF, shortest].map(wave);
@@ -162,7 +163,8 @@ fn powers(from: f64, to: f64, step: f64) -> Vec<f64> {
     steps(from, to, step).into_iter().map(|power| 10f64.powf(power)).collect()
 }
 
-/// Returns the density of values between each pair of edges: the lower edge, the upper edge, and the share of `all` over the width.
+/// Returns the density of values between each pair of edges: the lower edge, the upper edge, and the share of
+/// `all` over the width.
 fn histogram(values: impl Iterator<Item = f64>, edges: &[f64], all: f64) -> Vec<[f64; 3]> {
     let mut counts = vec![0.0; edges.len() - 1];
     for value in values {

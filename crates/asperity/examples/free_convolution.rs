@@ -4,8 +4,8 @@
 //! free_convolution 512 [5]
 //! ```
 //!
-//! For every line of standard input it prints the median time of a number of convolutions (here 5) in seconds, so that
-//! another program can alternate with it. `benches/peers/convolution.py` does so with FFTW.
+//! For every line of standard input it prints the median time of a number of convolutions (here 5) in
+//! seconds, so that another program can alternate with it. `benches/peers/convolution.py` does so with FFTW.
 #![expect(clippy::print_stdout, reason = "the seconds are what it is for")]
 
 use std::error::Error;

@@ -1,12 +1,12 @@
-//! Growth of the cost of a static contact with the number of cells. A self-affine surface with waves from a quarter of the
-//! side to eight cells is pressed to 5 % of contact, with a free boundary, from a cold start.
+//! Growth of the cost of a static contact with the number of cells. A self-affine surface with waves from a
+//! quarter of the side to eight cells is pressed to 5 % of contact, with a free boundary, from a cold start.
 //!
 //! ```text
 //! growth [side …]        128 256 512 1024 2048 4096, unless said otherwise
 //! ```
 //!
-//! Prints a table and the q of the fit t ∝ (N² log N)^q. Peak memory is that of the process (Linux), including gap and
-//! operator. No solution is kept while the next is computed.
+//! Prints a table and the q of the fit t ∝ (N² log N)^q. Peak memory is that of the process (Linux),
+//! including gap and operator. No solution is kept while the next is computed.
 #![expect(clippy::print_stdout, reason = "the table is what it is for")]
 
 use std::error::Error;

@@ -2,8 +2,8 @@
 //!
 //! # Problem
 //!
-//! A steel ball is pressed on a plate with a coating that is thin compared with the contact. Such a coating deforms only
-//! where it is pressed, like a bed of springs.
+//! A steel ball is pressed on a plate with a coating that is thin compared with the contact. Such a coating
+//! deforms only where it is pressed, like a bed of springs.
 //!
 //! # Mathematics
 //!
@@ -11,14 +11,15 @@
 //! u = C p + k p,   k = t (1 + ν)(1 − 2ν)/(E (1 − ν))
 //! ```
 //!
-//! with the operator C of the half-space, and the thickness t, Young's modulus E and Poisson's ratio ν of the coating. For
-//! k = 0 it is Hertz' contact. If the coating is much more compliant than the half-space, it is an elastic foundation:
-//! p = (δ − r²/2R)/k, thus p₀ = √(W/πRk). The actual pressure is below both.
+//! with the operator C of the half-space, and the thickness t, Young's modulus E and Poisson's ratio ν of the
+//! coating. For k = 0 it is Hertz' contact. If the coating is much more compliant than the half-space, it is
+//! an elastic foundation: p = (δ − r²/2R)/k, thus p₀ = √(W/πRk). The actual pressure is below both.
 //!
 //! # Program
 //!
-//! A solver requires of an operator its displacements, its coefficients, those of harmonics, and the same operator on a
-//! coarser grid. All methods, the cap on the pressure and prescribed loads then work as for a half-space.
+//! A solver requires of an operator its displacements, its coefficients, those of harmonics, and the same
+//! operator on a coarser grid. All methods, the cap on the pressure and prescribed loads then work as for a
+//! half-space.
 //!
 //! `cargo run --release -p asperity --example own_operator`
 //!

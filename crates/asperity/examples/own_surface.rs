@@ -2,13 +2,13 @@
 //!
 //! # Problem
 //!
-//! Bearing surfaces have dimples to hold oil. How much do their edges increase the largest pressure, and how much contact
-//! area do they remove?
+//! Bearing surfaces have dimples to hold oil. How much do their edges increase the largest pressure, and how
+//! much contact area do they remove?
 //!
 //! # Program
 //!
-//! Heights are an array `[ix, iy]` in metres on a grid, positive upwards. They may come from any function, file or
-//! measurement. The upper body is given like the lower one, and turned over by `underside`.
+//! Heights are an array `[ix, iy]` in metres on a grid, positive upwards. They may come from any function,
+//! file or measurement. The upper body is given like the lower one, and turned over by `underside`.
 //!
 //! `cargo run --release -p asperity --example own_surface`
 //!
@@ -48,8 +48,8 @@ fn main() -> asperity::Result<()> {
     Ok(())
 }
 
-/// Round dimples with a diameter of 6 µm, 12 µm apart, with `depth` in the middle and smooth edges. The pressure at a sharp
-/// edge would increase with each finer grid.
+/// Round dimples with a diameter of 6 µm, 12 µm apart, with `depth` in the middle and smooth edges. The
+/// pressure at a sharp edge would increase with each finer grid.
 fn dimples(grid: &Grid, depth: f64) -> Field {
     const APART: f64 = 12e-6;
     const RADIUS: f64 = 3e-6;

@@ -1,13 +1,15 @@
-//! Time and memory of the operators of an elasto-plastic body: the residual stress of plastic strain in all cells, and a
-//! product of an increment under a fixed pressure, with the displacement of the surface and the flow of the cells.
+//! Time and memory of the operators of an elasto-plastic body: the residual stress of plastic strain in all
+//! cells, and a product of an increment under a fixed pressure, with the displacement of the surface and the
+//! flow of the cells.
 //!
 //! ```text
 //! plastic_product [periodic|free|both] [SIDExLAYERS …]        both 64x16 256x32, unless said otherwise
 //! ```
 //!
-//! Prints a table. Times are means of the processor time of this thread (Linux; elsewhere of the time). They are those of
-//! the work if `RAYON_NUM_THREADS` is 1. The first memory is that of the process at its peak (Linux) with the operator, a
-//! strain and its stress; the second one has the body. A row counts the memory of the rows before it, if that was larger.
+//! Prints a table. Times are means of the processor time of this thread (Linux; elsewhere of the time). They
+//! are those of the work if `RAYON_NUM_THREADS` is 1. The first memory is that of the process at its peak
+//! (Linux) with the operator, a strain and its stress; the second one has the body. A row counts the memory
+//! of the rows before it, if that was larger.
 #![expect(clippy::print_stdout, reason = "the table is what it is for")]
 
 use std::error::Error;

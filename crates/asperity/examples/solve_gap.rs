@@ -5,9 +5,10 @@
 //!           [work=0.01 range=0.5] [tolerance=1e-6] [repeat=1] [pressure=out.npy]
 //! ```
 //!
-//! `gap.npy` contains the undeformed gap. `load` or `approach` may be given instead of the mean pressure `mean`. With a
-//! `work` of adhesion the bodies attract each other exponentially over the `range`, and come from afar. With `repeat` every
-//! solve starts afresh, and the median time is printed. `benches/peers/` runs it beside other programs.
+//! `gap.npy` contains the undeformed gap. `load` or `approach` may be given instead of the mean pressure
+//! `mean`. With a `work` of adhesion the bodies attract each other exponentially over the `range`, and come
+//! from afar. With `repeat` every solve starts afresh, and the median time is printed. `benches/peers/` runs
+//! it beside other programs.
 #![expect(clippy::print_stdout, reason = "the line of JSON is what it is for")]
 
 use std::collections::HashMap;

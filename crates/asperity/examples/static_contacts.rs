@@ -1,12 +1,13 @@
-//! Cost of static contacts of rough surfaces: convolutions and processor time, for several sides, boundaries and loads.
+//! Cost of static contacts of rough surfaces: convolutions and processor time, for several sides, boundaries
+//! and loads.
 //!
 //! ```text
 //! static_contacts [seeds=3] [repeats=3] [shortest=8] [side …]        256 512, unless said otherwise
 //! ```
 //!
-//! The surfaces have a Hurst exponent of 0.8, a roll-off at a quarter of the side and an rms slope of 0.1. Run it on one
-//! thread (`RAYON_NUM_THREADS=1`). The time is that of the thread on the processor (Linux), the least of the repeats,
-//! summed over the seeds.
+//! The surfaces have a Hurst exponent of 0.8, a roll-off at a quarter of the side and an rms slope of 0.1.
+//! Run it on one thread (`RAYON_NUM_THREADS=1`). The time is that of the thread on the processor (Linux), the
+//! least of the repeats, summed over the seeds.
 #![expect(clippy::print_stdout, reason = "the table is what it is for")]
 
 use std::error::Error;

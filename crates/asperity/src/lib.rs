@@ -10,13 +10,14 @@
 //! stress     σ   positive in tension; z then points from the surface into the loaded body
 //! ```
 //!
-//! Everything is SI and `f64`. Single precision is used only inside iterations. The lower body is described by the height
-//! of its surface, the upper one by the height of its underside. The undeformed gap is `h = z₂ − z₁`.
+//! Everything is SI and `f64`. Single precision is used only inside iterations. The lower body is described
+//! by the height of its surface, the upper one by the height of its underside. The undeformed gap is
+//! `h = z₂ − z₁`.
 //!
 //! # Where to begin
 //!
-//! Start with [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, [`study::run()`] for a case
-//! file, or [`solver::solve_normal`] for a contact given only by its gap.
+//! Start with [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, [`study::run()`]
+//! for a case file, or [`solver::solve_normal`] for a contact given only by its gap.
 //!
 //! | you have | use | you get |
 //! |---|---|---|
@@ -81,11 +82,12 @@
 //!
 //! # Crates
 //!
-//! This crate re-exports five others, which can be used alone: [`asperity-surface`](surface) for topographies, `asperity-elastic` for
-//! operators and solvers, `asperity-contact` for motion, `asperity-study` for case files and results, and `asperity-base` below them.
+//! This crate re-exports five others, which can be used alone: [`asperity-surface`](surface) for
+//! topographies, `asperity-elastic` for operators and solvers, `asperity-contact` for motion,
+//! `asperity-study` for case files and results, and `asperity-base` below them.
 //!
-//! Without them (`default-features = false`), generated surfaces, closed forms, operators, solvers, stress and motion
-//! remain.
+//! Without them (`default-features = false`), generated surfaces, closed forms, operators, solvers, stress
+//! and motion remain.
 //!
 //! # References
 //!

@@ -94,8 +94,8 @@ macro_rules! causes {
                 }
             }
 
-            /// Returns the fields of the variant by name; empty for a variant that holds another type, such as
-            /// [`Error::Case`].
+            /// Returns the fields of the variant by name; empty for a variant that holds another type, such
+            /// as [`Error::Case`].
             pub fn details(&self) -> Vec<(&'static str, Detail<'_>)> {
                 match self {
                     $(Self::$variant { $($($field,)*)? .. } => vec![$($((stringify!($field), $field.into())),*)?],)*

@@ -22,7 +22,8 @@ const FIELDS: [(&str, NonFinite); 4] = [
 /// Checks the values of a field of shape `shape`.
 ///
 /// # Errors
-/// [`Error::NotFinite`] with the first cell whose value is NaN or infinite, unless the field may hold such a value.
+/// [`Error::NotFinite`] with the first cell whose value is NaN or infinite, unless the field may hold such a
+/// value.
 pub fn check_finite<'a>(
     field: &str,
     shape: &[usize],

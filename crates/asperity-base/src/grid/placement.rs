@@ -4,9 +4,9 @@ use super::{CellValues, Field};
 
 /// Placement of the cells of a contact on the cells of one body.
 ///
-/// A cell of the contact lies on one cell of the body, or between two along x. Between two cells, the surface is their
-/// weighted mean. A change of the contact cell is distributed to the body with the same weights. They sum to 1, so nothing
-/// is lost or gained.
+/// A cell of the contact lies on one cell of the body, or between two along x. Between two cells, the surface
+/// is their weighted mean. A change of the contact cell is distributed to the body with the same weights.
+/// They sum to 1, so nothing is lost or gained.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     /// Column of the body under the first column of the contact.
@@ -19,8 +19,8 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Creates the placement of a contact whose first cell lies on `[column, row]` of a body of shape `shape`, counted
-    /// cyclically, plus a `fraction` of a column, 0 ≤ `fraction` < 1.
+    /// Creates the placement of a contact whose first cell lies on `[column, row]` of a body of shape
+    /// `shape`, counted cyclically, plus a `fraction` of a column, 0 ≤ `fraction` < 1.
     ///
     /// # Panics
     /// If the cell is not one of the body, or if the fraction is out of range.
@@ -64,7 +64,8 @@ impl Placement {
         onto
     }
 
-    /// Flat cell of the body under a flat cell of the contact; the first one if the contact cell lies between two.
+    /// Flat cell of the body under a flat cell of the contact; the first one if the contact cell lies between
+    /// two.
     #[inline]
     pub fn cell(&self, cell: usize) -> usize {
         let [columns, width] = self.shape;
@@ -110,7 +111,8 @@ impl Placement {
         }
     }
 
-    /// Gathers the values of a body under all cells of the contact in its column `j`, combined with `row` by `change`.
+    /// Gathers the values of a body under all cells of the contact in its column `j`, combined with `row` by
+    /// `change`.
     pub fn for_column(&self, values: &Field, j: usize, row: &mut [f64], change: impl Fn(&mut f64, f64)) {
         // A shift along y starts with the last cells.
         let column = |ahead: usize| {

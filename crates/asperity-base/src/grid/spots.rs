@@ -1,7 +1,7 @@
 //! Contact spots: connected cells of a grid.
 
-/// Cells of a grid and the spots that they form. Cells are connected over edges and corners and, if the grid is periodic along
-/// x or y, across its boundary.
+/// Cells of a grid and the spots that they form. Cells are connected over edges and corners and, if the grid
+/// is periodic along x or y, across its boundary.
 pub struct Spots {
     /// The cells `[ix, iy]`, in ascending order of their flat index.
     pub cells: Vec<[usize; 2]>,
@@ -10,7 +10,8 @@ pub struct Spots {
 }
 
 impl Spots {
-    /// Finds the spots of flat `cells`, in ascending order, on a grid of `shape` that is `periodic` along x or y.
+    /// Finds the spots of flat `cells`, in ascending order, on a grid of `shape` that is `periodic` along x
+    /// or y.
     pub fn new(cells: impl Iterator<Item = usize>, shape: [usize; 2], periodic: [bool; 2]) -> Self {
         let [columns, width] = shape;
         let mut spots = Sets::default();

@@ -1,5 +1,5 @@
-//! Files: reading of regular files and of text, atomic writing. They are on the disk, or in memory where there is no disk: in a browser, and with the
-//! feature `memory`.
+//! Files: reading of regular files and of text, atomic writing. They are on the disk, or in memory where
+//! there is no disk: in a browser, and with the feature `memory`.
 
 #[cfg(not(any(feature = "memory", all(target_arch = "wasm32", target_os = "unknown"))))]
 mod disk;

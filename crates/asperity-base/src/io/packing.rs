@@ -1,7 +1,8 @@
-//! Chunks of arrays in files: bytes of equal significance together (the shuffle filter of HDF5), then deflated.
+//! Chunks of arrays in files: bytes of equal significance together (the shuffle filter of HDF5), then
+//! deflated.
 //!
-//! The low bytes of measured or computed numbers are noise. They are stored as they are, which is as small, and many times as fast to
-//! write and to read. Every reader of zlib streams reads them.
+//! The low bytes of measured or computed numbers are noise. They are stored as they are, which is as small,
+//! and many times as fast to write and to read. Every reader of zlib streams reads them.
 
 use std::io;
 

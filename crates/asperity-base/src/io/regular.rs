@@ -8,8 +8,9 @@ use super::fs::{self, File};
 /// Reads the file at `path`, of at most `most` bytes. `expected` describes it: "a case file".
 ///
 /// # Errors
-/// The error of the operating system; [`ErrorKind::IsADirectory`] or [`ErrorKind::InvalidInput`] for anything but a regular
-/// file, with its kind; [`ErrorKind::InvalidInput`] also for a file larger than `most`, with its size.
+/// The error of the operating system; [`ErrorKind::IsADirectory`] or [`ErrorKind::InvalidInput`] for anything
+/// but a regular file, with its kind; [`ErrorKind::InvalidInput`] also for a file larger than `most`, with
+/// its size.
 pub fn read(path: &Path, expected: &str, most: u64) -> io::Result<Vec<u8>> {
     let mut file = open(path, expected)?;
     let length = file.metadata()?.len();
@@ -31,8 +32,8 @@ pub fn open(path: &Path, expected: &str) -> io::Result<File> {
     File::open(path)
 }
 
-/// Returns an error unless `path` leads to a regular file. A pipe or a device has no end, and opening one may block
-/// forever.
+/// Returns an error unless `path` leads to a regular file. A pipe or a device has no end, and opening one may
+/// block forever.
 ///
 /// # Errors
 /// The errors of [`read`].

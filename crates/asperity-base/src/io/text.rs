@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-/// Decodes the text of a file: UTF-16 with a byte order mark, UTF-8, or else Latin-1. Returns `None` for binary content: control characters in
-/// the first 64 KiB.
+/// Decodes the text of a file: UTF-16 with a byte order mark, UTF-8, or else Latin-1. Returns `None` for
+/// binary content: control characters in the first 64 KiB.
 pub fn decode(bytes: &[u8]) -> Option<Cow<'_, str>> {
     let text = match bytes {
         [0xff, 0xfe, rest @ ..] => Cow::Owned(utf16(rest, u16::from_le_bytes)),

@@ -71,7 +71,8 @@ impl RealFft2 {
     /// Computes the first rows and columns, of this `shape`, of the field with this spectrum.
     ///
     /// # Panics
-    /// If the shape of `spectrum` differs from that of [`RealFft2::forward`], or `shape` is larger than the plans.
+    /// If the shape of `spectrum` differs from that of [`RealFft2::forward`], or `shape` is larger than the
+    /// plans.
     pub fn inverse_leading(&self, spectrum: &Array2<Complex64>, shape: [usize; 2]) -> Field {
         assert_eq!(spectrum.dim(), (self.shape[0], self.half()), "shape of the spectrum");
         self.inverse_transposed(spectrum.t().as_standard_layout().into_owned(), shape)
@@ -135,10 +136,11 @@ impl RealFft2 {
         );
     }
 
-    /// Computes the first rows and columns, of this `shape`, of a field whose waves are multiplied by `response`,
-    /// indexed `[l, k]`, l = 0 … ny/2.
+    /// Computes the first rows and columns, of this `shape`, of a field whose waves are multiplied by
+    /// `response`, indexed `[l, k]`, l = 0 … ny/2.
     ///
-    /// `row` is called for each row of the field in order and sets its values. The field itself is never in memory.
+    /// `row` is called for each row of the field in order and sets its values. The field itself is never in
+    /// memory.
     ///
     /// # Panics
     /// If `response` has another shape than `[ny/2 + 1, nx]`, or `shape` is larger than the plans.
@@ -165,12 +167,12 @@ impl RealFft2 {
     }
 }
 
-/// Computes the transform of a real point-symmetric field, z[−i, −j] = z[i, j]. The transform is also real and
-/// point-symmetric.
+/// Computes the transform of a real point-symmetric field, z[−i, −j] = z[i, j]. The transform is also real
+/// and point-symmetric.
 ///
-/// `half` holds the rows i = 0 … nx/2 of the field of `shape` = [nx, ny]. The result holds the frequencies `[l, k]`,
-/// l = 0 … ny/2, of the unnormalised transform. A second call with the shape reversed returns the field times nx ny.
-/// It takes a quarter of the work of a complex transform.
+/// `half` holds the rows i = 0 … nx/2 of the field of `shape` = [nx, ny]. The result holds the frequencies
+/// `[l, k]`, l = 0 … ny/2, of the unnormalised transform. A second call with the shape reversed returns the
+/// field times nx ny. It takes a quarter of the work of a complex transform.
 ///
 /// # Panics
 /// If `half` has another shape than `[nx/2 + 1, ny]`.

@@ -1,7 +1,7 @@
 //! Fast transform lengths.
 
-/// Returns the smallest even number ≥ `n` whose only prime factors are 2, 3 and 5. It has at most one factor 5 and
-/// two factors 3, which the mixed-radix transforms handle about as fast as powers of two.
+/// Returns the smallest even number ≥ `n` whose only prime factors are 2, 3 and 5. It has at most one factor
+/// 5 and two factors 3, which the mixed-radix transforms handle about as fast as powers of two.
 pub fn good_size(n: usize) -> usize {
     /// Odd factors of the sizes.
     const ODD: [usize; 6] = [1, 3, 5, 9, 15, 45];

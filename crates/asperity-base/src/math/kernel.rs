@@ -8,21 +8,21 @@ use asperity_transforms::num_complex::Complex;
 use super::plans::{Plans, real};
 use crate::grid::Field;
 
-/// A cyclic kernel that is even along both axes, in Fourier space, with the plans of its size, for transforms in the
-/// precision of `T`.
+/// A cyclic kernel that is even along both axes, in Fourier space, with the plans of its size, for transforms
+/// in the precision of `T`.
 pub struct Kernel<T> {
     /// The plans of its size.
     pub plans: Plans<T>,
-    /// The real and even spectrum over its largest value: `[ky, kx]` for `ky ≤ My/2`, or for the ky of one rank,
-    /// and `kx ≤ Mx/2`. Kernels of both precisions share it.
+    /// The real and even spectrum over its largest value: `[ky, kx]` for `ky ≤ My/2`, or for the ky of one
+    /// rank, and `kx ≤ Mx/2`. Kernels of both precisions share it.
     pub spectrum: Arc<Field>,
     /// The largest of the spectrum, divided by Mx My.
     pub unit: f64,
 }
 
 impl Kernel<f64> {
-    /// Creates the kernel with the transform `spectrum[[ky, kx]]` at the bins `(kx, ky)` of the `plans`, for `ky ≤ My/2`,
-    /// `kx ≤ Mx/2`.
+    /// Creates the kernel with the transform `spectrum[[ky, kx]]` at the bins `(kx, ky)` of the `plans`, for
+    /// `ky ≤ My/2`, `kx ≤ Mx/2`.
     pub fn new(plans: Plans<f64>, spectrum: Field) -> Self {
         let largest = largest(&spectrum);
         Self::scaled(plans, spectrum, largest)

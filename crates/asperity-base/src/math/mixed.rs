@@ -36,8 +36,8 @@ pub enum LastUsed<D, S> {
 }
 
 impl<D, S> LastUsed<D, S> {
-    /// Returns the object for double precision. If necessary, it releases that for single precision, and `new`
-    /// creates it.
+    /// Returns the object for double precision. If necessary, it releases that for single precision, and
+    /// `new` creates it.
     pub fn double(&mut self, new: impl FnOnce() -> D) -> &mut D {
         if !matches!(self, Self::Double(_)) {
             *self = Self::None;
@@ -47,8 +47,8 @@ impl<D, S> LastUsed<D, S> {
         latest
     }
 
-    /// Returns the object for single precision. If necessary, it releases that for double precision, and `new`
-    /// creates it.
+    /// Returns the object for single precision. If necessary, it releases that for double precision, and
+    /// `new` creates it.
     pub fn single(&mut self, new: impl FnOnce() -> S) -> &mut S {
         if !matches!(self, Self::Single(_)) {
             *self = Self::None;

@@ -1,5 +1,5 @@
-//! Mathematics that topography and mechanics share: transforms, work shared by threads, quadrature, sums, rules of
-//! the active set.
+//! Mathematics that topography and mechanics share: transforms, work shared by threads, quadrature, sums,
+//! rules of the active set.
 
 pub mod active_set;
 pub mod fft;

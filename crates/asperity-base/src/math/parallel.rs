@@ -29,11 +29,12 @@ pub fn merged<M: Merged + Send>(shape: [usize; 2], of_rows: impl Fn(Range<usize>
 /// Smallest number of bands per thread.
 pub const BANDS_AT_ONCE: usize = 2;
 
-/// Performs a `task` on each of some parts. Returns the results in their order. Each thread has its own scratch
-/// memory from the `pool`; `new` creates missing memory.
+/// Performs a `task` on each of some parts. Returns the results in their order. Each thread has its own
+/// scratch memory from the `pool`; `new` creates missing memory.
 ///
-/// A thread takes at least `at_once` parts. The present thread performs all parts if they are few, or if its own
-/// tasks wait for other threads. Such tasks, for example the other positions of a pass, are larger and have priority.
+/// A thread takes at least `at_once` parts. The present thread performs all parts if they are few, or if its
+/// own tasks wait for other threads. Such tasks, for example the other positions of a pass, are larger and
+/// have priority.
 #[inline]
 pub fn each<T: Send, S: Send, R: Send>(
     parts: impl ExactSizeIterator<Item = T>,
@@ -50,7 +51,8 @@ pub fn each<T: Send, S: Send, R: Send>(
     shared(parts.collect(), at_once, &|| pool.acquire(&new), &|lent, part| task(lent.scratch(), part))
 }
 
-/// Performs a `task` on each of some parts, each large enough for a thread. Returns the results in their order.
+/// Performs a `task` on each of some parts, each large enough for a thread. Returns the results in their
+/// order.
 #[inline]
 pub fn tasks<T: Send, R: Send>(parts: impl IntoIterator<Item = T>, task: impl Fn(T) -> R + Sync) -> Vec<R> {
     let parts = parts.into_iter();
@@ -83,8 +85,8 @@ fn shared<T: Send, S, R: Send>(
 
 /// Performs a `task` on ranges that cover the `whole`, each of at least `at_once` numbers.
 ///
-/// The range is halved until there are `wanted` ranges. A range taken by another thread is halved further, so that
-/// idle threads help the others. This function is not generic, so that rayon is compiled only once.
+/// The range is halved until there are `wanted` ranges. A range taken by another thread is halved further, so
+/// that idle threads help the others. This function is not generic, so that rayon is compiled only once.
 fn share(whole: Range<usize>, at_once: usize, wanted: usize, task: &(dyn Fn(Range<usize>) + Sync)) {
     if wanted == 0 || whole.len() < 2 * at_once.max(1) {
         return task(whole);
@@ -157,7 +159,8 @@ pub fn field(shape: [usize; 2], value: impl Fn(usize, usize) -> f64 + Sync) -> F
 /// Smallest number of values of a field per thread.
 const FIELD_SHARE: usize = 1 << 12;
 
-/// Bands of consecutive rows for parallel work on a grid. They depend only on its shape, and so do sums by band.
+/// Bands of consecutive rows for parallel work on a grid. They depend only on its shape, and so do sums by
+/// band.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bands {
     /// Rows of a band; the last may have fewer.

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-/// Computes ∫ f over `lo … hi` by the five-point Gauss–Legendre rule on 64 panels. f is never evaluated at the ends.
+/// Computes ∫ f over `lo … hi` by the five-point Gauss–Legendre rule on 64 panels. f is never evaluated at
+/// the ends.
 pub fn integrate(lo: f64, hi: f64, f: impl Fn(f64) -> f64) -> f64 {
     /// Nodes and weights of one half of the symmetric rule.
     const NODES: [(f64, f64); 3] = [

@@ -7,8 +7,8 @@ use asperity_transforms::Precision;
 /// Number of partial sums.
 const LANES: usize = 8;
 
-/// Returns the sums of `terms` of each index and value, in eight lanes and in the precision of the terms. This is faster than
-/// one sum and has smaller rounding errors.
+/// Returns the sums of `terms` of each index and value, in eight lanes and in the precision of the terms.
+/// This is faster than one sum and has smaller rounding errors.
 pub fn sums<T: Copy, S: Precision + Sum, const N: usize>(
     values: &[T],
     terms: impl Fn(usize, T) -> [S; N],

@@ -1,6 +1,7 @@
 //! Ranks: processes that share one grid, each with a slab of its rows.
 //!
-//! The library neither starts them nor implements communication between them. The caller supplies both as [`Ranks`].
+//! The library neither starts them nor implements communication between them. The caller supplies both as
+//! [`Ranks`].
 
 mod halo;
 mod merged;
@@ -15,8 +16,8 @@ pub use slab::Slab;
 
 /// Processes, numbered from 0, that work on one grid together, from the view of one of them.
 ///
-/// All ranks call the same methods in the same order, and each call returns once its data have arrived. If a rank fails,
-/// the caller must end the others, too, because they wait for it.
+/// All ranks call the same methods in the same order, and each call returns once its data have arrived. If a
+/// rank fails, the caller must end the others, too, because they wait for it.
 pub trait Ranks: Send + Sync {
     /// Number of this rank.
     fn rank(&self) -> usize;
@@ -24,12 +25,12 @@ pub trait Ranks: Send + Sync {
     /// Number of ranks, at least 1.
     fn count(&self) -> usize;
 
-    /// Gathers the numbers of all ranks, in rank order, and returns them on every rank. Rank r contributes `counts[r]`
-    /// numbers.
+    /// Gathers the numbers of all ranks, in rank order, and returns them on every rank. Rank r contributes
+    /// `counts[r]` numbers.
     fn gather(&self, numbers: &[f64], counts: &[usize]) -> Vec<f64>;
 
-    /// Sends each rank its part of `sent`, `sent_counts[r]` numbers for rank r, and receives `received_counts[r]` numbers
-    /// from it. Both are in rank order.
+    /// Sends each rank its part of `sent`, `sent_counts[r]` numbers for rank r, and receives
+    /// `received_counts[r]` numbers from it. Both are in rank order.
     fn exchange(&self, sent: &[f64], sent_counts: &[usize], received: &mut [f64], received_counts: &[usize]);
 
     /// [`Ranks::exchange`] in single precision.

@@ -20,8 +20,8 @@ pub struct Slab {
 }
 
 impl Slab {
-    /// Creates the slab of this one of the `ranks` on a `grid`, with nearly equal numbers of rows. If there are enough
-    /// rows, it begins at a row of the coarser grids, too.
+    /// Creates the slab of this one of the `ranks` on a `grid`, with nearly equal numbers of rows. If there
+    /// are enough rows, it begins at a row of the coarser grids, too.
     ///
     /// # Errors
     /// [`Error::TooManyRanks`].
@@ -83,8 +83,8 @@ impl Slab {
         self.ranks.count() == 1
     }
 
-    /// Returns the slab of a coarse `grid` with half as many rows. It is the whole grid if that is small, or if the rows of
-    /// a rank do not match its coarse ones.
+    /// Returns the slab of a coarse `grid` with half as many rows. It is the whole grid if that is small, or
+    /// if the rows of a rank do not match its coarse ones.
     #[inline]
     pub fn coarse(&self, grid: Grid) -> Self {
         match self.rows.halved() {

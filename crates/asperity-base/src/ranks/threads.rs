@@ -28,7 +28,8 @@ pub fn on_ranks<R: Send>(count: usize, task: impl Fn(Arc<dyn Ranks>) -> R + Sync
     })
 }
 
-/// One of the ranks: a channel to and from each rank. Single-precision numbers are sent as double, without loss.
+/// One of the ranks: a channel to and from each rank. Single-precision numbers are sent as double, without
+/// loss.
 struct Thread {
     rank: usize,
     to: Vec<Mutex<Sender<Vec<f64>>>>,

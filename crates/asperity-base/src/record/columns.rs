@@ -1,4 +1,5 @@
-//! The declaration of columns. The fields of a record are the columns of its table and the keys of `summary.json`.
+//! The declaration of columns. The fields of a record are the columns of its table and the keys of
+//! `summary.json`.
 
 /// A column of a table, or a number of `summary.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,7 +10,8 @@ pub struct Column {
     pub unit: &'static str,
     /// Meaning, in a sentence.
     pub text: &'static str,
-    /// Names of the components: none for a number, `x` and `y` for a vector, `lower` and `upper` for both bodies.
+    /// Names of the components: none for a number, `x` and `y` for a vector, `lower` and `upper` for both
+    /// bodies.
     pub components: &'static [&'static str],
     /// Whether each record has the column.
     pub presence: Presence,
@@ -17,7 +19,8 @@ pub struct Column {
     pub over_motion: OverMotion,
 }
 
-/// How a value of a whole motion follows from the rows of its passes, each of which represents one pass or several.
+/// How a value of a whole motion follows from the rows of its passes, each of which represents one pass or
+/// several.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OverMotion {
     /// It does not: the value is that of the last pass.
@@ -28,7 +31,8 @@ pub enum OverMotion {
     Sum,
     /// The values add up, each as often as the passes that its row represents.
     SumOfPasses,
-    /// The value grows with the passes that its row represents, but does not add up: the value of a single pass at the end.
+    /// The value grows with the passes that its row represents, but does not add up: the value of a single
+    /// pass at the end.
     MeanOfPass,
 }
 
@@ -99,14 +103,16 @@ impl Part {
 
 /// Declares a record: each field is a column with its unit (by its type) and its meaning (its documentation).
 ///
-/// The record has the constants `OWN_COLUMNS` and `COLUMNS`. `COLUMNS` includes the columns of its groups, in the order
-/// in which they are written. Attributes of `serde` mark values that may be missing, see [`Presence`]:
+/// The record has the constants `OWN_COLUMNS` and `COLUMNS`. `COLUMNS` includes the columns of its groups, in
+/// the order in which they are written. Attributes of `serde` mark values that may be missing, see
+/// [`Presence`]:
 ///
 /// - `deserialize_with = "number_or_none"` or `"known_or_none"`, or an `Option` without attributes: the value may be unknown,
 /// - any other attribute of an `Option`: the column may be left out,
 /// - `flatten`, with or without `skip_serializing_if`: a group of columns that may be missing.
 ///
-/// Before them, `#[over_motion(Sum)]` says how a value of a whole motion follows from the passes, see [`OverMotion`].
+/// Before them, `#[over_motion(Sum)]` says how a value of a whole motion follows from the passes, see
+/// [`OverMotion`].
 #[macro_export]
 macro_rules! columns {
     (

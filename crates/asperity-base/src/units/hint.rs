@@ -1,4 +1,5 @@
-//! Hints for quantities that are not read: units that are not, with their sizes, and what they are in a unit that is.
+//! Hints for quantities that are not read: units that are not, with their sizes, and what they are in a unit
+//! that is.
 
 use super::quantity::{Dimension, SQUARED, UnitError, format_digits};
 
@@ -28,7 +29,8 @@ const MASSES: [(&str, f64); 11] = [
     ("oz", POUND / 16.0),
 ];
 
-/// Returns the units of a dimension that are not read. The hardness numbers of Vickers, Brinell and Knoop are in kgf/mm².
+/// Returns the units of a dimension that are not read. The hardness numbers of Vickers, Brinell and Knoop are
+/// in kgf/mm².
 fn units(dimension: Dimension) -> &'static [(&'static str, f64)] {
     match dimension {
         Dimension::Force => &[

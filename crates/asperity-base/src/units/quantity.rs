@@ -110,9 +110,9 @@ pub enum UnitError {
 
 /// Reads a quantity, in SI.
 ///
-/// A number without a unit is in SI already. `inf` is accepted for pressures (a rigid or unyielding body) and for
-/// conductivities (a body without resistance of its own). The result
-/// is the `f64` nearest to the written value, prefix included: `"0.1 um"` is `1e-7`.
+/// A number without a unit is in SI already. `inf` is accepted for pressures (a rigid or unyielding body) and
+/// for conductivities (a body without resistance of its own). The result is the `f64` nearest to the written
+/// value, prefix included: `"0.1 um"` is `1e-7`.
 ///
 /// # Errors
 /// [`UnitError`], which also names the expected dimension.
@@ -159,7 +159,8 @@ pub fn parse_unit(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     if is_name { parse(&format!("1 {}", text.trim()), expected) } else { parse(text, expected) }
 }
 
-/// Returns the digits and the number of decimals of a decimal number times a whole `factor`; `None` if it has too many digits.
+/// Returns the digits and the number of decimals of a decimal number times a whole `factor`; `None` if it has
+/// too many digits.
 fn times(mantissa: &str, factor: f64) -> Option<(i128, i32)> {
     let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let digits = format!("{whole}{decimals}").parse::<i128>().ok().filter(|_| factor.fract() == 0.0)?;
@@ -174,7 +175,8 @@ pub const CELSIUS: f64 = 273.15;
 
 /// Writes a quantity with four significant digits and a suitable prefix: `2.4 GPa`, `0.25 µm`, `12.3 mN`.
 ///
-/// [`parse`] reads it back. The number is from 1 to 1000, of areas from 0.01 and of volumes from 0.001. Angles are in degrees.
+/// [`parse`] reads it back. The number is from 1 to 1000, of areas from 0.01 and of volumes from 0.001.
+/// Angles are in degrees.
 pub fn format(value: f64, dimension: Dimension) -> String {
     format_digits(value, dimension, 4)
 }
@@ -201,8 +203,8 @@ pub fn format_number_digits(value: f64, digits: usize) -> String {
     }
 }
 
-/// [`format()`] with as many digits, at least four, as [`parse`] needs to come within the relative error `within` of the
-/// value.
+/// [`format()`] with as many digits, at least four, as [`parse`] needs to come within the relative error
+/// `within` of the value.
 pub fn format_within(value: f64, dimension: Dimension, within: f64) -> String {
     let close =
         |text: &String| parse(text, dimension).is_ok_and(|read| (read - value).abs() <= within * value.abs());
@@ -257,7 +259,8 @@ impl Multiple {
 }
 
 impl UnitError {
-    /// The message for a known key: `unknown unit 'GPb' in 'hardness', expected a pressure such as "2.4 GPa"`.
+    /// The message for a known key:
+    /// `unknown unit 'GPb' in 'hardness', expected a pressure such as "2.4 GPa"`.
     pub fn for_key(&self, key: &str) -> String {
         self.message(&format!(" in '{key}'"))
     }
@@ -730,7 +733,8 @@ struct Number<'a> {
     rest: &'a str,
 }
 
-/// Splits a number from its unit: `-2.5e3 GPa` is −2.5, 3 and ` GPa`. An `e` without digits after it belongs to the unit.
+/// Splits a number from its unit: `-2.5e3 GPa` is −2.5, 3 and ` GPa`. An `e` without digits after it belongs
+/// to the unit.
 fn split_number(text: &str) -> Option<Number<'_>> {
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let sign = usize::from(text.starts_with(['+', '-']));

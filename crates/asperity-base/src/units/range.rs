@@ -1,5 +1,5 @@
-//! Limits on the magnitude of input values. They lie far beyond any contact on either side, and no product of such
-//! quantities overflows or underflows.
+//! Limits on the magnitude of input values. They lie far beyond any contact on either side, and no product of
+//! such quantities overflows or underflows.
 
 use std::fmt;
 
@@ -69,7 +69,8 @@ impl Range {
         (self.least..=self.most).contains(&value)
     }
 
-    /// Returns 0 for a value of any sign below the smallest magnitude, as rounding leaves it in place of 0; otherwise the value.
+    /// Returns 0 for a value of any sign below the smallest magnitude, as rounding leaves it in place of 0;
+    /// otherwise the value.
     pub fn without_dust(&self, value: f64) -> f64 {
         if value.abs() < self.least { 0.0 } else { value }
     }

@@ -26,8 +26,9 @@ pub(crate) use writing::{Writing, within};
 
 /// Compute a case: a static contact, or a motion
 ///
-/// Prints progress to stderr and a short table to stdout. Writes everything else to the results directory: summary.json,
-/// steps.csv, passes.csv, fields (HDF5), figures and the page report.html. Ctrl-C keeps the finished passes; --resume continues.
+/// Prints progress to stderr and a short table to stdout. Writes everything else to the results directory:
+/// summary.json, steps.csv, passes.csv, fields (HDF5), figures and the page report.html. Ctrl-C keeps the
+/// finished passes; --resume continues.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  asperity run --example quickstart\n  asperity run surfaces/disc.toml --out disc"
@@ -39,7 +40,8 @@ pub(crate) struct Run {
     /// Run an example; its files are written to DIR/case
     #[arg(long, value_name = "NAME")]
     pub(crate) example: Option<String>,
-    /// Results directory; default: case file name with `-results`. For an example: folder for `case` and `results`; default: its name
+    /// Results directory; default: case file name with `-results`. For an example: folder for `case` and
+    /// `results`; default: its name
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Continue from the last finished pass of existing results
@@ -61,7 +63,8 @@ pub(crate) struct Run {
 
 /// Draw the figures of a results directory again
 ///
-/// Draws all figures, or those of --only, into DIR/figures. Common widths for pages with two columns are 85mm and 170mm.
+/// Draws all figures, or those of --only, into DIR/figures. Common widths for pages with two columns are 85mm
+/// and 170mm.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  asperity plot results --format pdf\n  asperity plot results --only pressure --range 0,2GPa \
@@ -97,8 +100,9 @@ pub(crate) struct Report {
 
 /// Reproduce the paper's figures 1, 2, 8, 9, 10 and its claim on cost
 ///
-/// Prints the size of the influence matrix over a pass, and the cost of sub-matrices compared with circular shifting: with dense
-/// matrices up to 48 cells per side, by FFT up to --largest. Each size is measured five times, alternately. Takes some minutes.
+/// Prints the size of the influence matrix over a pass, and the cost of sub-matrices compared with circular
+/// shifting: with dense matrices up to 48 cells per side, by FFT up to --largest. Each size is measured five
+/// times, alternately. Takes some minutes.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity paper --format pdf --width 85mm --no-title")]
 pub(crate) struct Paper {
@@ -131,7 +135,8 @@ pub(crate) struct Check {
     /// Print the JSON schema of case files, by which an editor completes and checks their keys
     #[arg(long, conflicts_with_all = ["case", "device"])]
     pub(crate) schema: bool,
-    /// Device that would solve the contact, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
+    /// Device that would solve the contact, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or
+    /// host
     #[arg(long, value_name = "DEVICE", value_parser = choice::<Device>())]
     pub(crate) device: Option<Device>,
 }
@@ -148,7 +153,8 @@ pub(crate) struct Completions {
 
 /// List the examples, or write the files of one
 ///
-/// Without a name it prints one line per example. With a name it writes the case file and data to a new folder.
+/// Without a name it prints one line per example. With a name it writes the case file and data to a new
+/// folder.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity example quickstart --out my-case")]
 pub(crate) struct Example {

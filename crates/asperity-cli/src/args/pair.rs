@@ -12,8 +12,9 @@ use super::values::{quantity, threads};
 
 /// Compute the contact of two topography files
 ///
-/// Fills missing heights, removes the tilt, brings both surfaces to a common grid, solves the contact and writes its results. DIR/case.toml
-/// is the case that was computed: edit it and run it again with `asperity run`.
+/// Fills missing heights, removes the tilt, brings both surfaces to a common grid, solves the contact and
+/// writes its results. DIR/case.toml is the case that was computed: edit it and run it again with
+/// `asperity run`.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example:\n  asperity contact disc.x3p plate.x3p --load \"0.5 N\" --material steel --open"
@@ -29,8 +30,8 @@ pub(crate) struct Contact {
 
 /// Compute passes of one topography file over another
 ///
-/// Prepares both surfaces as `asperity contact` does. The upper one enters on the left, passes over the lower one and leaves on the right;
-/// with --periodic it goes round. A hardness lets the surfaces run in.
+/// Prepares both surfaces as `asperity contact` does. The upper one enters on the left, passes over the lower
+/// one and leaves on the right; with --periodic it goes round. A hardness lets the surfaces run in.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example:\n  asperity slide disc.x3p plate.x3p --load \"0.5 N\" --material bearing-steel --passes 5 --open"
@@ -49,7 +50,8 @@ pub(crate) struct Slide {
 
 /// Write a case file with comments, from answers to five questions or from options
 ///
-/// Asks for what no option gives: the two surfaces, their materials, the load and the number of passes. An empty answer takes the default.
+/// Asks for what no option gives: the two surfaces, their materials, the load and the number of passes. An
+/// empty answer takes the default.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example:\n  asperity init --lower disc.x3p --upper plate.x3p --material steel --load \"0.5 N\" --passes 0"
@@ -93,7 +95,8 @@ pub(crate) struct Bodies {
     /// Material of both bodies, or those of the lower and the upper one; `asperity materials` lists them
     #[arg(long, value_name = "NAME[,NAME]", value_parser = pair_of_materials)]
     pub(crate) material: Both,
-    /// Largest pressure of both bodies, or of the lower and the upper one, such as 4GPa; inf: elastic; default: that of the material
+    /// Largest pressure of both bodies, or of the lower and the upper one, such as 4GPa; inf: elastic;
+    /// default: that of the material
     #[arg(long, value_name = "PRESSURE[,PRESSURE]", value_parser = pair_of_hardnesses)]
     pub(crate) hardness: Option<Both>,
     /// The surfaces repeat themselves along both axes
@@ -185,7 +188,8 @@ pub(crate) fn load(text: &str) -> Result<Load, String> {
 
 /// Print the materials that cases and commands know by name
 ///
-/// Young's modulus, Poisson's ratio, hardness where the grade determines it, and the constants of heat and current, each with its source.
+/// Young's modulus, Poisson's ratio, hardness where the grade determines it, and the constants of heat and
+/// current, each with its source.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity materials steel")]
 pub(crate) struct Materials {

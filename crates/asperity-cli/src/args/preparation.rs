@@ -12,19 +12,22 @@ pub(crate) struct PreparationArguments {
     /// Part to keep, in samples
     #[arg(long, value_name = "X0,Y0,NX,NY", value_parser = window)]
     window: Option<Window>,
-    /// Turn spikes and pits into missing samples: samples, in groups of up to about 5 × 5, that deviate from their surroundings by more than this number of (robust) standard deviations, such as 6
+    /// Turn spikes and pits into missing samples: samples, in groups of up to about 5 × 5, that deviate from
+    /// their surroundings by more than this number of (robust) standard deviations, such as 6
     #[arg(long, value_name = "FACTOR", value_parser = factor)]
     despike: Option<f64>,
     /// Treatment of missing samples
     #[arg(long, default_value = default::<Fill>(), value_parser = choice::<Fill>())]
     fill: Fill,
-    /// Form to subtract, fitted by least squares: none, mean, plane, quadratic, polynomial-3 (any order up to 16), sphere, cylinder
+    /// Form to subtract, fitted by least squares: none, mean, plane, quadratic, polynomial-3 (any order up to
+    /// 16), sphere, cylinder
     #[arg(long, default_value = "none")]
     level: Level,
     /// Direction to reverse
     #[arg(long, value_parser = choice::<Axis>())]
     mirror: Option<Axis>,
-    /// Angle of rotation, from x towards y: 90deg. Angles other than quarter turns interpolate by a spline on the largest inscribed rectangle
+    /// Angle of rotation, from x towards y: 90deg. Angles other than quarter turns interpolate by a spline on
+    /// the largest inscribed rectangle
     #[arg(long, value_name = "ANGLE", default_value = "0", value_parser = angle, allow_hyphen_values = true)]
     rotate: f64,
     /// Nesting index of the S-filter, which removes shorter waves: 2.5um

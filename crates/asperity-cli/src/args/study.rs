@@ -10,9 +10,10 @@ use super::values::{choice, threads};
 
 /// Compute a study: variations of one case over axes of values or the rows of a table
 ///
-/// Each case is a folder DIR/cases/0001 with its case.toml and its results. DIR/table.csv, table.h5 and study.html summarise all
-/// cases. Any number of processes, on machines with a common file system, may work on one study at the same time. If one
-/// is stopped or killed, run the same command again. The exit code is 1 if a case has failed.
+/// Each case is a folder DIR/cases/0001 with its case.toml and its results. DIR/table.csv, table.h5 and
+/// study.html summarise all cases. Any number of processes, on machines with a common file system, may work
+/// on one study at the same time. If one is stopped or killed, run the same command again. The exit code is 1
+/// if a case has failed.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  asperity example study\n  asperity study study/load.toml\n  asperity study load.toml --task \
@@ -40,10 +41,12 @@ pub(crate) struct Study {
     /// Allow more than 5000 cases
     #[arg(long)]
     pub(crate) yes: bool,
-    /// Number of threads, and of cases at a time, at most 1024; default: the limit of a scheduler or container, otherwise all cores
+    /// Number of threads, and of cases at a time, at most 1024; default: the limit of a scheduler or
+    /// container, otherwise all cores
     #[arg(long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<usize>,
-    /// Device that solves the contacts, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
+    /// Device that solves the contacts, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or
+    /// host
     #[arg(long, value_name = "DEVICE", value_parser = choice::<Device>())]
     pub(crate) device: Option<Device>,
     /// Print only warnings and errors

@@ -22,8 +22,8 @@ pub(crate) enum Surface {
 
 /// Print the content of a topography file and its roughness
 ///
-/// Reads x3p, sdf, gwy, npy, text and the files of many instruments, and detects the format from the content. Roughness refers
-/// to the heights after the given preparation: --level plane removes a tilt.
+/// Reads x3p, sdf, gwy, npy, text and the files of many instruments, and detects the format from the content.
+/// Roughness refers to the heights after the given preparation: --level plane removes a tilt.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity surface info heights.npy --pitch 0.5um --level plane")]
 pub(crate) struct Info {
@@ -74,7 +74,8 @@ pub(crate) struct Convert {
     pub(crate) input: Input,
 }
 
-/// A topography to read and prepare. Keep it last, because the help would list later arguments among its steps.
+/// A topography to read and prepare. Keep it last, because the help would list later arguments among its
+/// steps.
 #[derive(Debug, Args)]
 pub(crate) struct Input {
     /// Topography to read

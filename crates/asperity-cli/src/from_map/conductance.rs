@@ -27,8 +27,9 @@ const MEMORY: f64 = 260.0;
 
 /// Compute the conductance of a contact from a map of the cells that touch
 ///
-/// Reads a mask, a map of pressure or an image of the contact, in any format of `asperity surface info`. Cells above 0 touch, see --above and
-/// --below. Heat or current passes these cells, a film on them, and gas in the gap. The bodies are half-spaces below their surfaces.
+/// Reads a mask, a map of pressure or an image of the contact, in any format of `asperity surface info`.
+/// Cells above 0 touch, see --above and --below. Heat or current passes these cells, a film on them, and gas
+/// in the gap. The bodies are half-spaces below their surfaces.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  asperity conductance pressure.npy --pitch 1um --conductivity '46 W/(m K)' --boundary periodic

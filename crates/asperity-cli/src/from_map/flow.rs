@@ -24,8 +24,9 @@ const AXES: [&str; 2] = ["x", "y"];
 
 /// Compute the flow of a fluid through a gap from a map of the gap
 ///
-/// Reads the gap as heights, in any format of `asperity surface info`. Cells whose gap is not positive are closed. Prints permeability, leakage
-/// and the critical constriction. The pressure of the fluid does not deform the bodies.
+/// Reads the gap as heights, in any format of `asperity surface info`. Cells whose gap is not positive are
+/// closed. Prints permeability, leakage and the critical constriction. The pressure of the fluid does not
+/// deform the bodies.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  asperity flow gap.npy --pitch 1um --viscosity 80mPas --pressure 1bar
   asperity flow gap.x3p --viscosity 0.018mPas --pressure 4bar --outlet 1bar --ends reservoirs --sides closed --out leak")]
@@ -182,7 +183,8 @@ impl Found<'_> {
         })
     }
 
-    /// Writes the gap, and pressure and flow along each axis; without a fluid as shares of its pressure, and as fluxes per gradient.
+    /// Writes the gap, and pressure and flow along each axis; without a fluid as shares of its pressure, and
+    /// as fluxes per gradient.
     fn write_fields(&self, path: &Path) -> Outcome {
         let mut file = FieldFile::new(path);
         file.set("version", env!("CARGO_PKG_VERSION"));

@@ -16,7 +16,8 @@ use crate::args::{Init, Load, load, pair_of_materials};
 use crate::place;
 use crate::report::{Failure, Outcome, note, print};
 
-/// Adds tables that the case may have, each on a line that is a comment, and becomes part of a valid case without its leading `# `.
+/// Adds tables that the case may have, each on a line that is a comment, and becomes part of a valid case
+/// without its leading `# `.
 fn with_more(text: &str) -> String {
     let (title, rest) = text.split_once('\n').expect("a case begins with its title");
     let topography = "[lower.topography]\n";
@@ -45,7 +46,8 @@ fn with_more(text: &str) -> String {
     format!("{title}\n\n{head}{of_case}{rest}")
 }
 
-/// Returns examples of the keys of a table: those that are required with each of its choices, or one of the others.
+/// Returns examples of the keys of a table: those that are required with each of its choices, or one of the
+/// others.
 fn examples(path: &str) -> impl Iterator<Item = String> {
     let sections = keys().iter().filter(move |section| section.tables.contains(&path));
     let (own, choices): (Vec<&Section>, Vec<&Section>) =

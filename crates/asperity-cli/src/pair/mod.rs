@@ -73,7 +73,8 @@ fn compute(
     });
     let [case_before, results_before] = before;
     if outcome.is_err() && std::fs::read(directory.join("case.json")).ok() == results_before {
-        // Nothing has been computed: the next try begins with other arguments, and the case of results that stay is theirs.
+        // Nothing has been computed: the next try begins with other arguments, and the case of results that
+        // stay is theirs.
         let _ = match case_before {
             Some(text) => io::replace(&case, &text),
             None => std::fs::remove_file(&case).map_err(failed),

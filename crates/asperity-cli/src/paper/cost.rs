@@ -13,13 +13,14 @@ use indicatif::ProgressBar;
 use super::{CUTOFF, PITCH, POISSON, SQ, YOUNG, pair};
 use asperity_report::draw::{self, Axis, Caption, Chart, Charts, Mark, Paper, Series, Unit};
 
-/// Number of timings of each size. Both strategies and all sizes alternate, so that a temporarily slow machine
-/// affects all of them.
+/// Number of timings of each size. Both strategies and all sizes alternate, so that a temporarily slow
+/// machine affects all of them.
 const TURNS: usize = 5;
 /// Mean pressure over E* at the approach of all positions. The contact fraction is large.
 const PRESSURE: f64 = 0.01;
 
-/// Method of solving the contact at a position. The work grows as the power q of the number of columns in the overlap.
+/// Method of solving the contact at a position. The work grows as the power q of the number of columns in the
+/// overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Work {
     /// Dense matrices, factorised: the paper's direct quadratic programming.
@@ -50,7 +51,8 @@ impl Work {
         }
     }
 
-    /// Returns the numbers of cells per side, up to `largest` by transforms. Larger dense matrices take minutes.
+    /// Returns the numbers of cells per side, up to `largest` by transforms. Larger dense matrices take
+    /// minutes.
     fn sides(self, largest: usize) -> Vec<usize> {
         match self {
             Self::Factorisation => (12..=32).step_by(4).collect(),

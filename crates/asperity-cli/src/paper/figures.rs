@@ -188,7 +188,8 @@ fn passes(pair: Pair, bar: &ProgressBar) -> Result<Vec<Pass>> {
     Ok(kept.0)
 }
 
-/// Draws the pressures while the upper surface enters from the left, covers the lower one and leaves to the right.
+/// Draws the pressures while the upper surface enters from the left, covers the lower one and leaves to the
+/// right.
 fn pressures(pair: &Pair, pass: &Pass, save: &Save) -> Outcome {
     let grid = pair.lower_grid();
     let shown = [("a", 1), ("b", 2), ("c", 3), ("d", 4), ("e", 5), ("f", 6)]

@@ -1,7 +1,7 @@
 //! `asperity paper`: the figures of the paper with this method, and its claim on cost.
 //!
-//! Ghanbarzadeh, Wilson, Morina, Dowson, Neville, *A new strategy for the relative movement of rough surfaces in
-//! contact using a boundary element method*. Figures 3 to 7 are sketches.
+//! Ghanbarzadeh, Wilson, Morina, Dowson, Neville, *A new strategy for the relative movement of rough surfaces
+//! in contact using a boundary element method*. Figures 3 to 7 are sketches.
 
 mod cost;
 mod figures;

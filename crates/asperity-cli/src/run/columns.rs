@@ -5,8 +5,8 @@ use asperity::units::{CELSIUS, Dimension, Multiple, format_number};
 
 use asperity_report::words::numbers::decimals;
 
-/// Characters of a column, and of its part from the decimal point on. Eight columns and the count fit into a terminal
-/// of 80 characters.
+/// Characters of a column, and of its part from the decimal point on. Eight columns and the count fit into a
+/// terminal of 80 characters.
 const WIDTH: usize = 9;
 const PART: usize = 4;
 
@@ -94,7 +94,8 @@ impl Columns {
         Self { digits: most.to_string().len(), ..Self::default() }
     }
 
-    /// Returns a row, the first one with its heads: the name of the count, the number of this row, and its cells.
+    /// Returns a row, the first one with its heads: the name of the count, the number of this row, and its
+    /// cells.
     pub(super) fn row(&mut self, counted: &str, number: usize, cells: &[Cell]) -> String {
         let first = counted.len().max(4).max(self.digits);
         let mut text = String::new();
@@ -118,14 +119,15 @@ impl Columns {
     }
 }
 
-/// Returns a pure number with four significant digits, or with three and a power of ten where these would fill the column.
+/// Returns a pure number with four significant digits, or with three and a power of ten where these would
+/// fill the column.
 fn pure(value: f64) -> String {
     let text = format_number(value);
     if text.chars().count() < WIDTH { text } else { format!("{value:.2e}") }
 }
 
-/// Returns four significant digits with an aligned decimal point. If they do not fit into the column, or if few of
-/// them would be visible, returns two digits and a power of ten.
+/// Returns four significant digits with an aligned decimal point. If they do not fit into the column, or if
+/// few of them would be visible, returns two digits and a power of ten.
 fn aligned(value: f64) -> String {
     /// Below this value two digits do not fit into the column.
     const LEAST: f64 = 9.95e-3;

@@ -85,8 +85,8 @@ impl Display {
         }
     }
 
-    /// Estimates the remaining time of `steps`, of which `done` are finished, from the steps of this run; none
-    /// before the first.
+    /// Estimates the remaining time of `steps`, of which `done` are finished, from the steps of this run;
+    /// none before the first.
     fn time_left(&self, done: usize, steps: usize) -> Option<Duration> {
         let table = self.table();
         let (finished, last) = table.finished?;

@@ -95,7 +95,8 @@ pub(crate) fn compute(
     printed
 }
 
-/// Returns the default results directory: `surfaces/disc.toml` → `surfaces/disc-results`; of the case file within results, these.
+/// Returns the default results directory: `surfaces/disc.toml` → `surfaces/disc-results`; of the case file
+/// within results, these.
 fn beside(file: &Path) -> PathBuf {
     let folder = file.parent().unwrap_or(Path::new(""));
     if file.file_name().is_some_and(|name| name == "case.toml") && folder.join("case.json").exists() {

@@ -14,11 +14,11 @@ use super::rows::planes;
 use crate::maps::line;
 use asperity_report::words::closed_form;
 
-/// Describes a static contact and the largest stress below the surface, with a line for each number. The rows of
-/// passes and points are printed during the run.
+/// Describes a static contact and the largest stress below the surface, with a line for each number. The rows
+/// of passes and points are printed during the run.
 ///
-/// The rows of the capabilities are those of all contacts that were `found`, or those of the summary. The `updates` are those of a contact that
-/// slides in place; none of others.
+/// The rows of the capabilities are those of all contacts that were `found`, or those of the summary. The
+/// `updates` are those of a contact that slides in place; none of others.
 pub fn text(case: &Case, summary: &Summary, found: &Observations, updates: &[UpdateRecord]) -> String {
     let contact = match &summary.outcome {
         Outcome::Static(record) => static_table(case, &summary.interface.as_shown(record)),
@@ -38,7 +38,8 @@ pub fn text(case: &Case, summary: &Summary, found: &Observations, updates: &[Upd
         + &summary.subsurface.iter().map(stress_line).collect::<String>()
 }
 
-/// Describes what the case asks for beside the contact: the answers from several contacts, or the numbers of a single one.
+/// Describes what the case asks for beside the contact: the answers from several contacts, or the numbers of
+/// a single one.
 fn answers(case: &Case, found: &Observations, is_sweep: bool) -> String {
     let mut text = String::new();
     each_capability!(C => if let Some(asked) = C::of(&case.with) {

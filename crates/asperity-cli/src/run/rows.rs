@@ -64,8 +64,8 @@ impl Rows {
 
     /// Returns the row of a pass, the first one with the heads of the columns and their explanation.
     ///
-    /// Every table has load, largest pressure and contact area. Columns beyond the width of a terminal are left
-    /// out by rank.
+    /// Every table has load, largest pressure and contact area. Columns beyond the width of a terminal are
+    /// left out by rank.
     pub(super) fn pass(&mut self, pass: &PassRecord) -> String {
         self.done += pass.represents();
         let mut ranked = vec![
@@ -272,7 +272,8 @@ fn within_a_terminal(mut ranked: Vec<(Rank, Cell)>) -> (Vec<Cell>, Vec<&'static 
     (ranked.into_iter().map(|(_, cell)| cell).collect(), left_out)
 }
 
-/// Describes the planes whose distance is −approach: z = 0 of both bodies, the mean of a levelled or generated surface.
+/// Describes the planes whose distance is −approach: z = 0 of both bodies, the mean of a levelled or
+/// generated surface.
 pub(super) fn planes(case: &Case) -> &'static str {
     let has_mean_zero = |source: &Source, levelled: bool| match source {
         Source::Form { .. } => false,

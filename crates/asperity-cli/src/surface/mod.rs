@@ -57,7 +57,8 @@ pub(crate) fn read_prepared(input: &Input) -> Outcome<ReadSurface> {
     Ok(ReadSurface { pitch: read.pitch.map(|_| topography.grid().pitch), topography, scan: read.scan })
 }
 
-/// Reads and prepares a second file with the arguments of a first one, whose pitch it has unless it has its own.
+/// Reads and prepares a second file with the arguments of a first one, whose pitch it has unless it has its
+/// own.
 pub(crate) fn read_beside(path: &Path, input: &Input, pitch: [Metre; 2]) -> Outcome<ReadSurface> {
     let mut scan = input.reading.options().scan(path)?;
     let pitch = scan.pitch.or(input.reading.pitch.map(|pitch| pitch.0)).unwrap_or(pitch);

@@ -1,4 +1,5 @@
-//! What `asperity check` foretells of a case: counts of work, held against those of runs; the laws that it will follow.
+//! What `asperity check` foretells of a case: counts of work, held against those of runs; the laws that it
+//! will follow.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -42,8 +43,8 @@ fn the_convolutions_that_check_counts_are_those_of_the_examples() {
     let running_in = ("running-in", 14_124.5);
     let computed =
         ["quickstart", "hertz", "friction", "measured", "paper", "study"].map(|e| (e, computed(e)));
-    // The convolutions of adhesion depend on its strength. The example with 512 × 512 cells takes too long here, the other has 111
-    // increments.
+    // The convolutions of adhesion depend on its strength. The example with 512 × 512 cells takes too long
+    // here, the other has 111 increments.
     let sticking = [("contact-challenge", 68.6), ("pull-off", 5662.0)];
     for (example, convolutions) in computed.into_iter().chain([running_in]).chain(sticking) {
         let told = demand_of(example, &[], 2).convolutions;

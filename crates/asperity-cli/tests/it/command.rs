@@ -133,7 +133,8 @@ fn a_surface_is_prepared_alike_for_a_look_and_for_a_file() {
     for key in ["shape", "pitch", "parameters"] {
         assert_eq!(looked_at[key], written[key], "{key}");
     }
-    // A paraboloid is not quite a sphere: they differ by r⁴/8R³, 11 nm in the corners, before the fit takes its share.
+    // A paraboloid is not quite a sphere: they differ by r⁴/8R³, 11 nm in the corners, before the fit takes
+    // its share.
     assert!(written["max"].as_f64().unwrap() < 5e-9);
 }
 

@@ -32,8 +32,8 @@ fn kinds() -> Vec<(&'static str, String)> {
     ]
 }
 
-/// Files that the page does without: what a run goes on from, pressures of single points, stresses of passes before the last, the table that
-/// repeats the others.
+/// Files that the page does without: what a run goes on from, pressures of single points, stresses of passes
+/// before the last, the table that repeats the others.
 fn is_spare(name: &str) -> bool {
     name.contains("state")
         || name.contains("point-")
@@ -41,7 +41,8 @@ fn is_spare(name: &str) -> bool {
         || name == "results.csv"
 }
 
-/// The page and the figures of damaged results are made of the rest, with a word about the file, or refused with its name.
+/// The page and the figures of damaged results are made of the rest, with a word about the file, or refused
+/// with its name.
 #[test]
 fn whatever_is_damaged_of_results_is_named_and_nothing_panics() {
     for (kind, case) in kinds() {
@@ -138,7 +139,8 @@ fn points_that_were_changed_by_hand_are_refused() {
     assert!(!folder.path().join("out/fields/state-0002.h5").exists());
 }
 
-/// A pipe has no end, and a device none either: neither is read, wherever it stands in a results directory or in a study.
+/// A pipe has no end, and a device none either: neither is read, wherever it stands in a results directory or
+/// in a study.
 #[test]
 fn what_is_no_file_is_not_read_wherever_it_lies() {
     let folder = folder_with(&motion(1, ""));

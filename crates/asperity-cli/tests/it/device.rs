@@ -1,4 +1,5 @@
-//! Contacts that a device solves: its solver in plain loops, which needs no device, and the errors where there is none.
+//! Contacts that a device solves: its solver in plain loops, which needs no device, and the errors where
+//! there is none.
 
 use std::fs;
 

@@ -1,8 +1,11 @@
-//! What the examples compute, as they stand and made small, against `digests/`: an answer that changed fails here.
+//! What the examples compute, as they stand and made small, against `digests/`: an answer that changed fails
+//! here.
 //!
-//! Of each series of numbers (a column of a table, a field, the fields of all positions together) the digest holds how many
-//! they are, their mean, their rms, their sum under weights that differ from place to place, and some of them.
-//! `ASPERITY_DIGESTS=write cargo test -p asperity-cli --test it digests -- --include-ignored` writes them anew.
+//! Of each series of numbers (a column of a table, a field, the fields of all positions together) the digest
+//! holds how many they are, their mean, their rms, their sum under weights that differ from place to place,
+//! and some of them.
+//! `ASPERITY_DIGESTS=write cargo test -p asperity-cli --test it digests -- --include-ignored` writes them
+//! anew.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -279,8 +282,8 @@ const QUICKSTART_SMALL: &[(&str, &str)] = &[
     ("control = \"pass-load\"", "load_tolerance = 1e-11\ncontrol = \"pass-load\""),
 ];
 
-/// To 10⁻⁴: loads are met to that, and pressures to a residual of 10⁻⁶. Which of the points that symmetry makes equal is the
-/// most stressed is left to the last digit.
+/// To 10⁻⁴: loads are met to that, and pressures to a residual of 10⁻⁶. Which of the points that symmetry
+/// makes equal is the most stressed is left to the last digit.
 const fn as_it_stands(example: &'static str) -> Variant {
     Variant {
         name: example,
@@ -341,8 +344,9 @@ fn every_example_has_its_digests() {
             count[usize::from(variant.edits.is_empty())] += 1;
             count
         });
-        // That of 100 000 passes would have a digest as long as its results, those of bodies that flow and of 512 × 512 cells take
-        // minutes, that of fatigue repeats the small one. How many cycles a computed one stands for depends on rounding.
+        // That of 100 000 passes would have a digest as long as its results, those of bodies that flow and of
+        // 512 × 512 cells take minutes, that of fatigue repeats the small one. How many cycles a computed one
+        // stands for depends on rounding.
         let without =
             ["running-in", "rolling", "contact-challenge", "fretting", "viscoelastic", "micropitting"];
         let wanted = usize::from(!without.iter().any(|example| name == **example));
@@ -358,8 +362,8 @@ fn every_example_has_its_digests() {
 /// Series of numbers by name.
 type SeriesByName = BTreeMap<String, Vec<f64>>;
 
-/// Runs the variant of the example in `folder`, and returns all numbers of its results: as it stands by the command, changed
-/// by the library, which draws no figures.
+/// Runs the variant of the example in `folder`, and returns all numbers of its results: as it stands by the
+/// command, changed by the library, which draws no figures.
 fn computed(variant: &Variant, folder: &TempDir) -> SeriesByName {
     let results = folder.path().join("results");
     let example = folder.path().join(variant.example);
@@ -379,7 +383,8 @@ fn computed(variant: &Variant, folder: &TempDir) -> SeriesByName {
     series
 }
 
-/// All numbers of the results in a folder, but for times and residuals, which are noise, warm starts, and the numbers of warnings.
+/// All numbers of the results in a folder, but for times and residuals, which are noise, warm starts, and the
+/// numbers of warnings.
 fn numbers(folder: &Path) -> SeriesByName {
     let mut series = SeriesByName::new();
     for name in files(folder) {

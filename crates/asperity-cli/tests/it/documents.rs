@@ -1,8 +1,9 @@
 //! README and tutorials show what the program prints.
 //!
-//! The commands of their `sh` and `python` blocks are run in their order, in one folder for each document; a `text` block that
-//! follows is what the last of them prints. A `toml` block with a name, such as `toml two.toml`, is a file in that folder.
-//! With `ASPERITY_DOCUMENTS=write` the `text` blocks are written anew.
+//! The commands of their `sh` and `python` blocks are run in their order, in one folder for each document; a
+//! `text` block that follows is what the last of them prints. A `toml` block with a name, such as
+//! `toml two.toml`, is a file in that folder. With `ASPERITY_DOCUMENTS=write` the `text` blocks are written
+//! anew.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +11,8 @@ use std::process::Command;
 
 use crate::support::program;
 
-/// Numbers may differ by so much of themselves, or by one in their last decimal: loads are met to 10⁻⁴, and machines round differently.
+/// Numbers may differ by so much of themselves, or by one in their last decimal: loads are met to 10⁻⁴, and
+/// machines round differently.
 const TOLERANCE: f64 = 0.01;
 
 #[test]

@@ -200,7 +200,8 @@ fn the_table_of_bodies_that_run_in_counts_the_passes_of_the_motion() {
     assert!(table.lines().all(|line| line.chars().count() <= 80 || line.contains(';')), "{table}");
 }
 
-/// A position at which nothing touches is one of the others: its temperature is that of no cell, and all is drawn.
+/// A position at which nothing touches is one of the others: its temperature is that of no cell, and all is
+/// drawn.
 #[test]
 fn a_heated_motion_with_positions_apart_is_drawn() {
     let heat = "conductivity = 46, heat_capacity = 460, density = 7850, hardness";

@@ -29,7 +29,8 @@ pub(crate) fn asperity(folder: &TempDir, arguments: &str) -> Output {
     command(folder, arguments).output().unwrap()
 }
 
-/// Runs the command to its end under a limit of `ulimit`: `-f 8` for files of at most 8 KiB, as on a disk that fills up.
+/// Runs the command to its end under a limit of `ulimit`: `-f 8` for files of at most 8 KiB, as on a disk
+/// that fills up.
 pub(crate) fn limited(folder: &TempDir, limit: &str, arguments: &str) -> Output {
     let script = format!("ulimit {limit}; exec '{}' {arguments}", program());
     Command::new("bash").args(["-c", &script]).current_dir(folder).output().unwrap()

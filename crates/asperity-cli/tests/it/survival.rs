@@ -1,5 +1,5 @@
-//! Results that survive: directories that killed and refused runs leave, a second run, damage, full disks, closed
-//! streams, and kills at any moment.
+//! Results that survive: directories that killed and refused runs leave, a second run, damage, full disks,
+//! closed streams, and kills at any moment.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -416,8 +416,8 @@ fn a_run_that_is_killed_at_any_moment_is_resumed_to_the_same_bits() {
     }
 }
 
-/// `strace` ends a process at a call: a run into a new directory, and one that replaces the results of another case.
-/// Every call that changes a file with `ASPERITY_KILLS`, some of them otherwise.
+/// `strace` ends a process at a call: a run into a new directory, and one that replaces the results of
+/// another case. Every call that changes a file with `ASPERITY_KILLS`, some of them otherwise.
 #[test]
 #[cfg(target_os = "linux")]
 #[ignore = "needs strace"]

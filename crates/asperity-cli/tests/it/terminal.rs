@@ -1,4 +1,5 @@
-//! What the terminal shows of bodies that change: a row for each pass, and what has become of them at the end.
+//! What the terminal shows of bodies that change: a row for each pass, and what has become of them at the
+//! end.
 
 use std::fs;
 

@@ -7,8 +7,8 @@ use crate::math::parallel::{self, Pool};
 use asperity_transforms::num_complex::Complex64;
 use asperity_transforms::{ComplexToReal, Fft, Precision, RealToComplex};
 
-/// Padding between the harmonics of neighbouring frequencies. Without it, those of a power of two of cells would map to the
-/// same cache lines.
+/// Padding between the harmonics of neighbouring frequencies. Without it, those of a power of two of cells
+/// would map to the same cache lines.
 const ROOM: usize = 4;
 /// Number of rows that are transposed at a time: two cache lines of complex numbers.
 const BLOCK: usize = 8;
@@ -23,9 +23,10 @@ pub(crate) fn together(numbers: usize) -> usize {
 
 /// Plans for planes of `cells`, which are padded with zeros to the `shape` of the transforms.
 ///
-/// The rows are transformed first, with the planes in parallel. Then the columns are transformed, with the ky in
-/// parallel; here the caller has access to all planes. Columns exist only for the ky of the moment, since padding makes
-/// them longer than their harmonics. The inverse reverses the order. A single thread computes each number.
+/// The rows are transformed first, with the planes in parallel. Then the columns are transformed, with the ky
+/// in parallel; here the caller has access to all planes. Columns exist only for the ky of the moment, since
+/// padding makes them longer than their harmonics. The inverse reverses the order. A single thread computes
+/// each number.
 ///
 /// | what | indexed |
 /// |---|---|

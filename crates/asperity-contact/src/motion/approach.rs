@@ -9,21 +9,24 @@ pub(super) const MAX_RESIDUAL: f64 = 0.1;
 /// Number of approaches tried before the search gives up.
 const MAX_TRIALS: usize = 100;
 
-/// Largest relative error of the load, in residuals η of its positions, accepted from an exhausted bracket. The load is
-/// uncertain by a part of η itself.
+/// Largest relative error of the load, in residuals η of its positions, accepted from an exhausted bracket.
+/// The load is uncertain by a part of η itself.
 const MAX_LOAD_ERROR: f64 = 100.0;
 
 /// Width of an exhausted bracket, in roundings of its approaches: it contains no further approaches to try.
 const BRACKET_ROUNDING: f64 = 4.0;
-/// Relative uncertainty of the load, as a fraction of the residual η. The sign of a smaller load error is unknown.
+/// Relative uncertainty of the load, as a fraction of the residual η. The sign of a smaller load error is
+/// unknown.
 const UNCERTAINTY: f64 = 0.1;
-/// Number of trials at the required residual whose load error is within the uncertainty but not within the tolerance. After
-/// these, the next such trial is accepted: the sign of their error is unknown, and no bracket closes.
+/// Number of trials at the required residual whose load error is within the uncertainty but not within the
+/// tolerance. After these, the next such trial is accepted: the sign of their error is unknown, and no
+/// bracket closes.
 const MAX_UNCERTAIN_TRIALS: usize = 8;
-/// Number of successive trials that do not halve the least error of the load, after which the bracket is bisected: the
-/// secant then crosses a jump.
+/// Number of successive trials that do not halve the least error of the load, after which the bracket is
+/// bisected: the secant then crosses a jump.
 const MAX_STALLED_TRIALS: usize = 3;
-/// Relative error of the load after a secant step, as a multiple of the product of the errors of the two trials before it.
+/// Relative error of the load after a secant step, as a multiple of the product of the errors of the two
+/// trials before it.
 const SECANT_ERROR: f64 = 4.0;
 
 /// A search for the approach with a given mean load.
@@ -66,9 +69,9 @@ pub(super) struct AcceptedTrial<T> {
 impl Search {
     /// Tries approaches by a bracketed secant iteration on ln W(δ).
     ///
-    /// `trial(δ, η)` returns the mean load at an approach, from positions solved to the residual η; the first trial is
-    /// solved to `residual`. Far from the load a rough solution is enough to find the next approach. Only the last trial is
-    /// solved to the required residual.
+    /// `trial(δ, η)` returns the mean load at an approach, from positions solved to the residual η; the first
+    /// trial is solved to `residual`. Far from the load a rough solution is enough to find the next approach.
+    /// Only the last trial is solved to the required residual.
     pub(super) fn run<T>(
         &self,
         first: Guess,
@@ -93,8 +96,8 @@ impl Search {
             if std::mem::replace(&mut was_rough, is_rough) != is_rough {
                 (least_excess, stalled) = (f64::INFINITY, 0);
                 if !is_rough && excess.abs() > self.roughest {
-                    // The rough solutions before this one were wrong about its load, so no further rough solutions are
-                    // used.
+                    // The rough solutions before this one were wrong about its load, so no further rough
+                    // solutions are used.
                     (rough_misled, before, below) = (true, None, 0.0);
                     (bracket, slope) = (Bracket::beyond(self.touch), first.slope);
                 }
@@ -103,7 +106,8 @@ impl Search {
             if !tells_no_side && excess.abs() > self.tolerance {
                 let refuted = bracket.narrow(BracketEnd { approach, residual }, excess < 0.0);
                 if refuted {
-                    // A rougher solution was on the wrong side of the load, so no further rough solutions are used.
+                    // A rougher solution was on the wrong side of the load, so no further rough solutions are
+                    // used.
                     (rough_misled, slope, least_excess) = (true, first.slope, f64::INFINITY);
                 }
             }
@@ -160,8 +164,9 @@ impl Search {
 
     /// Returns the residual for the next trial after two trials with these errors of the load.
     ///
-    /// The mean load is about a thousand times more accurate than the residual. The next trial is expected to have an error
-    /// of a few times the product of the last two. If that is within the tolerance, the trial is treated as the last.
+    /// The mean load is about a thousand times more accurate than the residual. The next trial is expected to
+    /// have an error of a few times the product of the last two. If that is within the tolerance, the trial
+    /// is treated as the last.
     fn residual_for(&self, excess: f64, before: f64) -> f64 {
         if SECANT_ERROR * (excess * before).abs() <= self.tolerance {
             return self.residual;
@@ -194,8 +199,8 @@ impl Bracket {
         Self { touch, low: touch, high: Self::OPEN }
     }
 
-    /// Uses a trial as a bound, `below` the required load or above it. Returns whether it refutes the bound of a rougher
-    /// trial.
+    /// Uses a trial as a bound, `below` the required load or above it. Returns whether it refutes the bound
+    /// of a rougher trial.
     fn narrow(&mut self, bound: BracketEnd, below: bool) -> bool {
         let refuted;
         if below {
@@ -320,8 +325,8 @@ mod tests {
 
     #[test]
     fn a_rough_answer_on_the_wrong_side_of_the_load_closes_no_bracket() {
-        // A rough trial before the limit reaches 1 % less than the true load, and is below the required load, which is met
-        // at 2.
+        // A rough trial before the limit reaches 1 % less than the true load, and is below the required load,
+        // which is met at 2.
         let trial = |delta: f64, eta: f64| {
             let short = if eta > 1e-6 && delta > 2.0 { 0.01 } else { 0.0 };
             Ok((delta * (1.0 - short), ()))

@@ -9,12 +9,14 @@ use crate::motion::pass::{Pass, Solver};
 use crate::motion::watch::OneOfMany;
 use crate::solver::{Bounds, Control, Params, Solution, Stats, solve_batch};
 
-/// Number of batches, each to a tenth of the residual before, until the load is met by positions that are accurate alone.
+/// Number of batches, each to a tenth of the residual before, until the load is met by positions that are
+/// accurate alone.
 const MAX_BATCHES: usize = 3;
 
 impl Solver<'_> {
-    /// Solves all positions as one batch, at an approach, or at the one at which they bear a mean load. Returns none if this
-    /// pass takes the search for an approach: its loads are at a limit, or it exceeds the memory of the device.
+    /// Solves all positions as one batch, at an approach, or at the one at which they bear a mean load.
+    /// Returns none if this pass takes the search for an approach: its loads are at a limit, or it exceeds
+    /// the memory of the device.
     ///
     /// # Errors
     /// The errors of the contacts, and those of devices.

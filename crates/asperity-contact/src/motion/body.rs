@@ -14,7 +14,8 @@ pub struct Body {
     pub heights: Field,
     /// Largest pressure that each cell can carry, Pa; infinite if the body is elastic.
     pub hardness: CellValues,
-    /// Further state that laws store with the body, by name in snake case: a film's thickness, an accumulated strain, ….
+    /// Further state that laws store with the body, by name in snake case: a film's thickness, an accumulated
+    /// strain, ….
     pub state: BTreeMap<String, State>,
 }
 

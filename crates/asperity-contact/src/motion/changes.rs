@@ -11,8 +11,9 @@ use crate::motion::rim::Interior;
 use crate::temperature::Thermal;
 use crate::units::Kelvin;
 
-/// Changes of the bodies of a course by its contacts: laws, memories of whole load cycles, the heat of friction, and the extrapolation over
-/// passes or cycles that are not computed. One list serves passes, loadings in stages and sliding in place.
+/// Changes of the bodies of a course by its contacts: laws, memories of whole load cycles, the heat of
+/// friction, and the extrapolation over passes or cycles that are not computed. One list serves passes,
+/// loadings in stages and sliding in place.
 pub struct Changes {
     /// The laws; the ones that act once for each computed pass come first.
     pub(super) laws: Vec<Box<dyn Law>>,
@@ -36,7 +37,8 @@ pub(super) struct FrictionalHeat {
 pub(super) struct Taken {
     /// Depth that each law has taken from both bodies.
     pub(super) by_laws: Vec<[Field; 2]>,
-    /// Depths of material that have gone, one after the other: by laws that uncover what is below, then by each memory.
+    /// Depths of material that have gone, one after the other: by laws that uncover what is below, then by
+    /// each memory.
     pub(super) gone: Vec<[Field; 2]>,
 }
 
@@ -53,8 +55,8 @@ impl Changes {
         Self::default().with_law(law)
     }
 
-    /// Adds a law. It acts after those before it, but a law that does not [repeat](Law::repeats) acts before those that do: an extrapolation
-    /// depends on their results.
+    /// Adds a law. It acts after those before it, but a law that does not [repeat](Law::repeats) acts before
+    /// those that do: an extrapolation depends on their results.
     #[must_use]
     pub fn with_law(self, law: impl Law + 'static) -> Self {
         self.with_laws(vec![Box::new(law)])
@@ -89,10 +91,12 @@ impl Changes {
         Self { bulk, ..self }
     }
 
-    /// Adds the heat of friction in bodies with these thermal constants, lower one first. Laws then see the temperature of the cells in
-    /// contact: the flash temperature of passes, computed in the first and in each `every`-th computed pass, ≥ 1, with the mean of the last
-    /// such pass in between; the steady temperature of each update of a contact that slides in place; in the cycles of a loading the steady
-    /// temperature by the mean heat of the last computed cycle. It needs friction, the temperatures of the bodies, and a speed or a period.
+    /// Adds the heat of friction in bodies with these thermal constants, lower one first. Laws then see the
+    /// temperature of the cells in contact: the flash temperature of passes, computed in the first and in
+    /// each `every`-th computed pass, ≥ 1, with the mean of the last such pass in between; the steady
+    /// temperature of each update of a contact that slides in place; in the cycles of a loading the steady
+    /// temperature by the mean heat of the last computed cycle. It needs friction, the temperatures of the
+    /// bodies, and a speed or a period.
     #[must_use]
     pub fn with_heat(self, thermal: [Thermal; 2], every: usize) -> Self {
         Self { heat: Some(FrictionalHeat { thermal, every }), ..self }
@@ -121,7 +125,8 @@ impl Changes {
     /// Returns what frictional heating needs; `None` without it.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if the temperatures of the bodies are unknown, or if there is no friction or no speed.
+    /// [`Error::Unsupported`] if the temperatures of the bodies are unknown, or if there is no friction or no
+    /// speed.
     pub(super) fn heated(&self, rubs: bool) -> Result<Option<FrictionalHeat>> {
         match self.heat {
             Some(_) if !rubs || self.bulk.iter().any(|kelvin| kelvin.is_nan()) => Err(Error::Unsupported(
@@ -157,8 +162,9 @@ impl Changes {
         self.memories.iter().map(|memory| memory.most_cycles(pair)).fold(f64::INFINITY, f64::min) as usize
     }
 
-    /// Lets the `laws`, the last ones of the list, change a `pair` by so many `times` with these sums, and then the memories by so many `cycles`.
-    /// Adds the volumes of the laws to `lost`, and those of the memories behind them.
+    /// Lets the `laws`, the last ones of the list, change a `pair` by so many `times` with these sums, and
+    /// then the memories by so many `cycles`. Adds the volumes of the laws to `lost`, and those of the
+    /// memories behind them.
     pub(super) fn act(
         &self,
         laws: &[Box<dyn Law>],
@@ -174,8 +180,9 @@ impl Changes {
         Taken { by_laws, gone }
     }
 
-    /// Lets the memories go on by so many `cycles`, in which laws that uncover material have taken the depth `worn` from both bodies, `None`
-    /// without such laws. Adds the volumes that the bodies lose by that to `lost`, and returns the depths of all material that has gone.
+    /// Lets the memories go on by so many `cycles`, in which laws that uncover material have taken the depth
+    /// `worn` from both bodies, `None` without such laws. Adds the volumes that the bodies lose by that to
+    /// `lost`, and returns the depths of all material that has gone.
     pub(super) fn follow(
         &self,
         pair: &mut Pair,

@@ -23,19 +23,21 @@ use crate::units::{CubicMetre, Kelvin, Metre, Newton, Pascal};
 pub struct Contact {
     /// The relative position of the bodies.
     pub position: Position,
-    /// Flat cells in contact and their pressure, Pa: with p > 0, or with p > −σ(0) where the bodies attract each other.
+    /// Flat cells in contact and their pressure, Pa: with p > 0, or with p > −σ(0) where the bodies attract
+    /// each other.
     pub pressure: Vec<(u32, Pascal)>,
     /// Flat cells that are open and under tension, and their pressure, Pa, below 0. None between hard walls.
     pub tension: Vec<(u32, Pascal)>,
     /// Flat cells at the hardness and their plastic interference w, m.
     pub plastic: Vec<(u32, Metre)>,
-    /// Absolute temperature of the surfaces on each cell in contact, in the order of the pressures; `None` if it is not
-    /// computed.
+    /// Absolute temperature of the surfaces on each cell in contact, in the order of the pressures; `None` if
+    /// it is not computed.
     pub temperature: Option<Vec<Kelvin>>,
-    /// Gap of all cells, m, where an output asks for it ([`crate::motion::Simulation::keeping_gaps`]): below 0 by up to the plastic
-    /// interference on cells at the hardness.
+    /// Gap of all cells, m, where an output asks for it ([`crate::motion::Simulation::keeping_gaps`]): below
+    /// 0 by up to the plastic interference on cells at the hardness.
     pub gap: Option<Arc<Field>>,
-    /// Largest elastic displacement of a cell, m; `None` if it is unknown, as for a pass that is solved together with its removal.
+    /// Largest elastic displacement of a cell, m; `None` if it is unknown, as for a pass that is solved
+    /// together with its removal.
     pub max_displacement: Option<Metre>,
     /// Tension across the gap; `None` between hard walls.
     pub interface: Option<InterfaceRecord>,
@@ -52,8 +54,8 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Solves the contact of `pair` at `position` in a slip `regime`, near the pressure `start` or from the contact `last` on the same grid,
-    /// if one is given.
+    /// Solves the contact of `pair` at `position` in a slip `regime`, near the pressure `start` or from the
+    /// contact `last` on the same grid, if one is given.
     #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
     pub(super) fn solve(
         pair: &Pair,
@@ -162,7 +164,8 @@ impl Contact {
         field
     }
 
-    /// Returns the temperature of the cells in contact, K, NaN elsewhere, `width` across; `None` if it is not computed.
+    /// Returns the temperature of the cells in contact, K, NaN elsewhere, `width` across; `None` if it is not
+    /// computed.
     pub fn temperature_field(&self, width: usize) -> Option<Field> {
         let temperature = self.temperature.as_ref()?;
         let mut field = Field::from_elem([self.position.columns, width], f64::NAN);
@@ -172,8 +175,8 @@ impl Contact {
         Some(field)
     }
 
-    /// Returns the plastic interference w of each cell in contact, in the order of the pressures; 0 in cells that do not
-    /// yield.
+    /// Returns the plastic interference w of each cell in contact, in the order of the pressures; 0 in cells
+    /// that do not yield.
     pub fn interference(&self) -> Vec<Metre> {
         let mut plastic = self.plastic.iter().peekable();
         let of = |(cell, _): &(u32, Pascal)| plastic.next_if(|(at, _)| at == cell).map_or(0.0, |(_, w)| *w);

@@ -14,8 +14,8 @@ pub enum LoadControl {
 }
 
 impl LoadControl {
-    /// Returns the plastic limit of the load from the limits `max_load` of all positions: their mean under pass control,
-    /// their smallest under step control.
+    /// Returns the plastic limit of the load from the limits `max_load` of all positions: their mean under
+    /// pass control, their smallest under step control.
     pub fn plastic_limit(self, max_load: &[Newton]) -> Newton {
         match self {
             Self::Pass => max_load.iter().sum::<f64>() / max_load.len() as f64,

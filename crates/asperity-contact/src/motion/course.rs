@@ -14,8 +14,8 @@ use crate::motion::worn_away;
 use crate::solver::Solution;
 use crate::units::{Metre, Newton};
 
-/// A computation in steps: increments of a loading, updates of a contact that slides in place, points of a load sweep, or
-/// passes of a motion.
+/// A computation in steps: increments of a loading, updates of a contact that slides in place, points of a
+/// load sweep, or passes of a motion.
 pub(super) trait Course {
     /// A solved step that is not committed yet.
     type Solved;
@@ -42,7 +42,8 @@ pub struct Step<'a> {
     pub of: Option<usize>,
     /// Its row.
     pub row: StepRow<'a>,
-    /// The contact of a course that does not move; `None` for a pass, and while elasto-plastic bodies are unloaded at the end.
+    /// The contact of a course that does not move; `None` for a pass, and while elasto-plastic bodies are
+    /// unloaded at the end.
     pub contact: Option<&'a Solution>,
     /// The plastic interference of earlier contacts of a loading.
     pub flattening: Option<&'a Flattening>,
@@ -106,8 +107,8 @@ pub(super) fn run<C: Course>(
 /// Passes a solved step to the outputs and commits it.
 ///
 /// # Errors
-/// The errors of the outputs, [`Error::NotFinite`] if the bodies have NaN or infinite values, and [`Error::WornAway`]. The step
-/// is then not committed.
+/// The errors of the outputs, [`Error::NotFinite`] if the bodies have NaN or infinite values, and
+/// [`Error::WornAway`]. The step is then not committed.
 pub(super) fn finish<C: Course>(
     course: &mut C,
     solved: C::Solved,
@@ -166,8 +167,8 @@ impl<'a> Step<'a> {
         self.cycle.as_ref()?.pass.as_ref()
     }
 
-    /// Returns the load cycle that ends with the step: a pass of a motion, or a computed cycle of a loading whose bodies laws change or
-    /// memories remember.
+    /// Returns the load cycle that ends with the step: a pass of a motion, or a computed cycle of a loading
+    /// whose bodies laws change or memories remember.
     pub fn cycle(&self) -> Option<&CycleReport<'a>> {
         self.cycle.as_ref()
     }

@@ -21,7 +21,8 @@ pub(super) fn memory(pair: &Pair) -> Option<CreepMemory> {
     pair.creep_together().map(|creep| CreepMemory::new(creep, pair.lower_grid().shape))
 }
 
-/// Solves the contact at the end of a step in time of bodies with a composite `modulus`, and advances their `memory`.
+/// Solves the contact at the end of a step in time of bodies with a composite `modulus`, and advances their
+/// `memory`.
 pub(super) fn load(
     operator: &mut dyn Operator,
     modulus: Pascal,
@@ -35,8 +36,9 @@ pub(super) fn load(
         .map(|solution| Equilibrium::Frictionless(Box::new(solution)))
 }
 
-/// Solves the contact at the end of a step in time of bodies with a composite `modulus` and this `memory`, which lose height in it by the
-/// compliance of the problem. Returns it with the displacement by which the memory advances.
+/// Solves the contact at the end of a step in time of bodies with a composite `modulus` and this `memory`,
+/// which lose height in it by the compliance of the problem. Returns it with the displacement by which the
+/// memory advances.
 pub(super) fn load_removing(
     operator: &mut dyn Operator,
     modulus: Pascal,
@@ -47,7 +49,8 @@ pub(super) fn load_removing(
     let ContactProblem { gap, loading, guess, compliance: removal, params, watch, .. } = *problem;
     let (creep, history) = (memory.compliance(duration), memory.history(duration));
     let start = guess.and_then(|guess| guess.pressure());
-    // A step is solved as an elastic contact, whose pressures are these times its compliance over that of the bodies.
+    // A step is solved as an elastic contact, whose pressures are these times its compliance over that of the
+    // bodies.
     let depth =
         removal.map_or(CellValues::Uniform(0.0), |removal| removal.map(|depth| depth / (creep * modulus)));
     let mut operator = Compliant::new(operator, depth.clone())?;
@@ -156,8 +159,8 @@ impl Remembering {
         }
     }
 
-    /// Advances to the end of a step, with its pressure and the displacement Lp of the contact. Returns the work on the body per area of a
-    /// cell, by the trapezoidal rule.
+    /// Advances to the end of a step, with its pressure and the displacement Lp of the contact. Returns the
+    /// work on the body per area of a cell, by the trapezoidal rule.
     fn advance(
         &mut self,
         placement: &Placement,
@@ -211,7 +214,8 @@ impl Creeping {
         self.bodies.iter_mut().flatten()
     }
 
-    /// Begins a pass: from the `last` contact of the pass before, or after the bodies have been apart for a time.
+    /// Begins a pass: from the `last` contact of the pass before, or after the bodies have been apart for a
+    /// time.
     fn begin(&mut self, pair: &Pair, last: Option<&Contact>, apart: Option<Second>) {
         if let Some(apart) = apart {
             self.remembering().for_each(|body| body.memory.recover(apart));
@@ -272,8 +276,8 @@ impl Creeping {
 }
 
 impl Solver<'_> {
-    /// Solves all positions of a pass of viscoelastic bodies, one after another, each a step of the same time. The starts are those of
-    /// [`Solver::solve`], or the contact at the position before.
+    /// Solves all positions of a pass of viscoelastic bodies, one after another, each a step of the same
+    /// time. The starts are those of [`Solver::solve`], or the contact at the position before.
     pub(super) fn solve_creeping(
         &self,
         pair: &Pair,

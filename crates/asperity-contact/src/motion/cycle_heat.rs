@@ -1,8 +1,8 @@
 //! Heat of the slip in the cycles of a loading.
 //!
-//! The surfaces have the steady temperature of the mean heat of the last computed cycle, with both bodies at rest: the contact is warm by then,
-//! and in a cycle that is short compared with the time that heat needs to cross a spot, its temperature changes little. The first cycle has the
-//! temperatures of the bodies.
+//! The surfaces have the steady temperature of the mean heat of the last computed cycle, with both bodies at
+//! rest: the contact is warm by then, and in a cycle that is short compared with the time that heat needs to
+//! cross a spot, its temperature changes little. The first cycle has the temperatures of the bodies.
 
 use crate::error::Result;
 use crate::grid::{Field, Grid};
@@ -61,7 +61,8 @@ impl CyclicTemperature {
         Ok(Self { steady: SteadyTemperature::new(grid, thermal, boundary, [0.0; 2], bulk)?, bulk })
     }
 
-    /// Returns the temperatures of these cells of the lower and of the upper body: that of the `heat`, or else of the bodies.
+    /// Returns the temperatures of these cells of the lower and of the upper body: that of the `heat`, or
+    /// else of the bodies.
     pub(super) fn of_cells(&self, heat: &CycleHeat, cells: &[u32]) -> [Vec<Kelvin>; 2] {
         let known = heat.temperature.as_slice().expect("standard layout");
         self.bulk.map(|bulk| {

@@ -42,8 +42,9 @@ impl PlasticPath {
     }
 }
 
-/// Presses a pair at full overlap along a `path`. The given `bodies`, lower one first, are elasto-plastic. Under `friction`
-/// they stick or slip. The increments include the unloading; record and solution are those under the last load.
+/// Presses a pair at full overlap along a `path`. The given `bodies`, lower one first, are elasto-plastic.
+/// Under `friction` they stick or slip. The increments include the unloading; record and solution are those
+/// under the last load.
 ///
 /// # Errors
 /// The errors of [`StagedLoading::with_plastic`] and of [`StagedLoading::run`].

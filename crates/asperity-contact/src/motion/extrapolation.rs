@@ -17,15 +17,16 @@ use asperity_derive::Table;
 
 /// Limits of the extrapolation over passes that are not computed.
 ///
-/// A computed pass is extrapolated over J passes. The sums S of its laws over a pass are assumed to change per pass by dS,
-/// as since the computed pass before. Their mean over the extrapolation is S + ½ J dS. The removal is then of second order in J
-/// (Adams and Bashforth), and a film grows as under frozen contact. The difference of the heights to those from S alone
-/// estimates the error.
+/// A computed pass is extrapolated over J passes. The sums S of its laws over a pass are assumed to change
+/// per pass by dS, as since the computed pass before. Their mean over the extrapolation is S + ½ J dS. The
+/// removal is then of second order in J (Adams and Bashforth), and a film grows as under frozen contact. The
+/// difference of the heights to those from S alone estimates the error.
 #[derive(Table, Debug, Clone, Copy, PartialEq, Serialize)]
 #[table("acceleration", default)]
 #[non_exhaustive]
 pub struct Acceleration {
-    /// Largest error estimate of an extrapolation, over the depth to which the largest pressure presses a single cell.
+    /// Largest error estimate of an extrapolation, over the depth to which the largest pressure presses a
+    /// single cell.
     #[key(number = "a number", range = AboveZero, default = 0.01, example = "0.01")]
     pub tolerance: f64,
     /// Largest number of passes per extrapolation, the computed pass included; 1 computes all passes.
@@ -91,8 +92,8 @@ pub struct LastExtrapolation {
     pub sums: Vec<Sums>,
 }
 
-/// Removal by custom laws in the last computed pass. They act once a pass and its extrapolation are known, so that their removal bounds the next
-/// extrapolation.
+/// Removal by custom laws in the last computed pass. They act once a pass and its extrapolation are known, so
+/// that their removal bounds the next extrapolation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Removed {
     /// Depth that a single pass takes off each cell of the lower and of the upper body.
@@ -111,7 +112,8 @@ impl Removed {
         Self { depth, change }
     }
 
-    /// Estimates the error of the heights if the depth is taken off over so many `passes` as if it did not change.
+    /// Estimates the error of the heights if the depth is taken off over so many `passes` as if it did not
+    /// change.
     pub(super) fn error(&self, passes: usize) -> Metre {
         if passes > 1 { 0.5 * (passes as f64).powi(2) * self.change } else { 0.0 }
     }
@@ -190,7 +192,8 @@ impl GridCompliance {
     }
 }
 
-/// Largest depth worn off a cell of both bodies in a pass per unit pressure, m/Pa: that of the cell longest in contact.
+/// Largest depth worn off a cell of both bodies in a pass per unit pressure, m/Pa: that of the cell longest
+/// in contact.
 pub(super) fn relaxation(
     pair: &Pair,
     contacts: &[Contact],

@@ -1,9 +1,11 @@
-//! Changes of the bodies in a loading. Laws change them where they slip by less than the size of the contact. Memories look at whole cycles.
+//! Changes of the bodies in a loading. Laws change them where they slip by less than the size of the contact.
+//! Memories look at whole cycles.
 //!
-//! In a stage the laws act after each increment. In a cycle the bodies are frozen: the laws sum over its increments and act at its end,
-//! for the cycle itself or for several at once, with the slip of the computed one. The pressures change with the removal of these cycles. The
-//! depth of a cell follows from the mean of its pressures on the bodies before and after them (the trapezoidal rule), of which the second is
-//! found as a contact with [`Compliant`] cells. Any number of cycles is stable.
+//! In a stage the laws act after each increment. In a cycle the bodies are frozen: the laws sum over its
+//! increments and act at its end, for the cycle itself or for several at once, with the slip of the computed
+//! one. The pressures change with the removal of these cycles. The depth of a cell follows from the mean of
+//! its pressures on the bodies before and after them (the trapezoidal rule), of which the second is found as
+//! a contact with [`Compliant`] cells. Any number of cycles is stable.
 
 use crate::error::Result;
 use crate::grid::{CellValues, Field};
@@ -54,7 +56,8 @@ pub struct ChangedBodies {
     pub computed: usize,
     /// Heat of friction; `None` if its temperature is not computed.
     pub heat: Option<CycleHeat>,
-    /// Tractions on the lower body in the contacts of the present cycle, from that at its beginning; empty without memories.
+    /// Tractions on the lower body in the contacts of the present cycle, from that at its beginning; empty
+    /// without memories.
     pub contacts: Vec<Tractions>,
 }
 
@@ -137,7 +140,8 @@ impl Fretting {
         }
     }
 
-    /// Adds a contact to those of the present cycle, which begins with the contact `before` if it is on the same bodies.
+    /// Adds a contact to those of the present cycle, which begins with the contact `before` if it is on the
+    /// same bodies.
     pub(super) fn see(
         &self,
         bodies: &mut ChangedBodies,
@@ -157,7 +161,8 @@ impl Fretting {
         bodies.contacts.push(tractions(contact));
     }
 
-    /// Computes the temperature by the heat of the cycle of this `period` that ends with a `contact`, if it is requested.
+    /// Computes the temperature by the heat of the cycle of this `period` that ends with a `contact`, if it
+    /// is requested.
     pub(super) fn warm(
         &mut self,
         bodies: &mut ChangedBodies,
@@ -189,7 +194,8 @@ impl Fretting {
         self.changes.look(&cycle, &mut bodies.pair)
     }
 
-    /// Lets the laws act once for their sums, which begin anew. Returns the depths of the material that has gone from both bodies.
+    /// Lets the laws act once for their sums, which begin anew. Returns the depths of the material that has
+    /// gone from both bodies.
     pub(super) fn act_once(&self, bodies: &mut ChangedBodies) -> Result<Vec<[Field; 2]>> {
         let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.changes.laws, &bodies.pair));
         if let Some(heat) = &mut bodies.heat {
@@ -200,9 +206,10 @@ impl Fretting {
         Ok(self.act(bodies, &sums, 1, 0))
     }
 
-    /// Lets the laws act at the end of a cycle, after those of its stage that are `done`, over the `gap` between the bodies before the load,
-    /// flattened as far as they are, under the same load or at the same approach. Returns the number of cycles that it stands for, of the `left`
-    /// ones, and the depths of the material that has gone from both bodies.
+    /// Lets the laws act at the end of a cycle, after those of its stage that are `done`, over the `gap`
+    /// between the bodies before the load, flattened as far as they are, under the same load or at the same
+    /// approach. Returns the number of cycles that it stands for, of the `left` ones, and the depths of the
+    /// material that has gone from both bodies.
     pub(super) fn act_for_cycles(
         &mut self,
         bodies: &mut ChangedBodies,
@@ -210,7 +217,8 @@ impl Fretting {
         (gap, control): (&Field, Control),
         [done, left]: [usize; 2],
     ) -> Result<(usize, Vec<[Field; 2]>)> {
-        /// Cycles at the beginning of a stage that stand for themselves: the first one still remembers how the loading came there.
+        /// Cycles at the beginning of a stage that stand for themselves: the first one still remembers how
+        /// the loading came there.
         const SETTLING: usize = 2;
         let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.changes.laws, &bodies.pair));
         let one = law::tried(&self.changes.laws, &bodies.pair, &sums, 1);
@@ -254,8 +262,8 @@ impl Fretting {
         Ok((cycles, gone))
     }
 
-    /// Returns the sums of a cycle over so many `cycles`, in the mean of the pressures before and after their removal, from those with the
-    /// pressures before.
+    /// Returns the sums of a cycle over so many `cycles`, in the mean of the pressures before and after their
+    /// removal, from those with the pressures before.
     fn implicitly(
         &mut self,
         bodies: &ChangedBodies,
@@ -310,8 +318,8 @@ impl Fretting {
         Ok(sums)
     }
 
-    /// Returns the sums of a cycle, in the mean over so many `cycles`, with the slip that goes on changing as since the computed cycle before.
-    /// The pressures stay.
+    /// Returns the sums of a cycle, in the mean over so many `cycles`, with the slip that goes on changing as
+    /// since the computed cycle before. The pressures stay.
     fn with_slip(&self, bodies: &ChangedBodies, pressure: &Field, sums: &[Sums], cycles: usize) -> Vec<Sums> {
         let mut changing = sums.to_vec();
         let Some(last) = bodies.last.as_ref().filter(|_| cycles > 1) else { return changing };
@@ -331,9 +339,10 @@ impl Fretting {
         changing
     }
 
-    /// Estimates the error of the heights by so many `cycles` at once from the sums of the cycle, from those with the change of the slip, and
-    /// from those with that of the pressures, too. It is the larger one of two differences: between the last ones and an explicit step,
-    /// whose sums change as since the computed cycle before; and between the sums with and without the change of the slip.
+    /// Estimates the error of the heights by so many `cycles` at once from the sums of the cycle, from those
+    /// with the change of the slip, and from those with that of the pressures, too. It is the larger one of
+    /// two differences: between the last ones and an explicit step, whose sums change as since the computed
+    /// cycle before; and between the sums with and without the change of the slip.
     fn error(
         &self,
         bodies: &ChangedBodies,
@@ -350,8 +359,8 @@ impl Fretting {
         law::difference(&explicit, &tried(implicit)).max(of_slip)
     }
 
-    /// Lets the laws act for their `sums` over so many `times`, and the memories go on by so many `cycles`. Returns the depths of the material that
-    /// has gone from both bodies, one after the other.
+    /// Lets the laws act for their `sums` over so many `times`, and the memories go on by so many `cycles`.
+    /// Returns the depths of the material that has gone from both bodies, one after the other.
     fn act(&self, bodies: &mut ChangedBodies, sums: &[Sums], times: usize, cycles: usize) -> Vec<[Field; 2]> {
         let laws = &self.changes.laws;
         let (mut lost, times) = (law::nothing_lost(laws), [times, cycles]);

@@ -11,8 +11,9 @@ use crate::motion::path::Position;
 use crate::temperature::FlashTemperature;
 use crate::units::Kelvin;
 
-/// Name of the body state that stores the mean temperature rise of each cell over its contacts of the last pass with a
-/// computed flash temperature, K. It exists only if the flash temperature is not computed in every pass.
+/// Name of the body state that stores the mean temperature rise of each cell over its contacts of the last
+/// pass with a computed flash temperature, K. It exists only if the flash temperature is not computed in
+/// every pass.
 pub const FLASH: &str = "flash_temperature";
 
 /// The flash temperature of every n-th computed pass.
@@ -26,8 +27,8 @@ impl PassHeat {
         Self { flash: Mutex::new(flash), every }
     }
 
-    /// Returns the temperature model of the pass after `done` computed ones, position by position, for a `pair` with these
-    /// `bulk` temperatures.
+    /// Returns the temperature model of the pass after `done` computed ones, position by position, for a
+    /// `pair` with these `bulk` temperatures.
     pub(super) fn of_pass(&self, done: usize, pair: &Pair, bulk: [Kelvin; 2]) -> Box<Heat<'_>> {
         if self.is_computed(done) {
             let mut flash = self.flash.lock().unwrap_or_else(PoisonError::into_inner);

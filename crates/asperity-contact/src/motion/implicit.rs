@@ -16,14 +16,14 @@ use crate::operator::{Boundary, Operator, Operators};
 use crate::solver::{Bounds, Control, Device, Method, Params, Solution, solve_normal_watched};
 
 impl Solver<'_> {
-    /// Solves again a pass with too much removal for an explicit step. Each cell of the bodies is lowered by the depth lost at
-    /// the end of the pass, which is `compliance`, m/Pa, times the sum of its pressures over all positions. All positions
-    /// form one problem, which starts from the pressures of the `outcome`. This is backward Euler, stable for any removal, as
-    /// in sliding in place.
+    /// Solves again a pass with too much removal for an explicit step. Each cell of the bodies is lowered by
+    /// the depth lost at the end of the pass, which is `compliance`, m/Pa, times the sum of its pressures
+    /// over all positions. All positions form one problem, which starts from the pressures of the `outcome`.
+    /// This is backward Euler, stable for any removal, as in sliding in place.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if a load holds at each position, the bodies attract each other, or shear displaces them normally;
-    /// [`Error::NotConverged`], [`Error::Interrupted`].
+    /// [`Error::Unsupported`] if a load holds at each position, the bodies attract each other, or shear
+    /// displaces them normally; [`Error::NotConverged`], [`Error::Interrupted`].
     pub(super) fn solve_implicitly(
         &self,
         outcome: &Pass,
@@ -102,9 +102,9 @@ const TOO_MUCH_REMOVAL: &str = "a single pass removes so much that the pressures
      cells or a shorter pass; the implicit solution needs one approach for the whole pass, no attraction and no coupling of \
      shear to normal displacements";
 
-/// Displacement at all positions of a pass, stacked in one field, under the pressures at all of them. It is the elastic
-/// displacement of the bodies plus the depth worn by the end of the pass, C + κ₁ S₁ᵀS₁ + κ₂ S₂ᵀS₂, where S sums the
-/// pressures on a cell of a body over the positions.
+/// Displacement at all positions of a pass, stacked in one field, under the pressures at all of them. It is
+/// the elastic displacement of the bodies plus the depth worn by the end of the pass, C + κ₁ S₁ᵀS₁ + κ₂
+/// S₂ᵀS₂, where S sums the pressures on a cell of a body over the positions.
 struct WornPass<'a> {
     pair: &'a Pair,
     positions: &'a [Position],
@@ -151,7 +151,8 @@ impl Operator for WornPass<'_> {
         &self.grid
     }
 
-    /// Free for every boundary of the positions: once all cells lose height, no mean displacement is undetermined.
+    /// Free for every boundary of the positions: once all cells lose height, no mean displacement is
+    /// undetermined.
     fn boundary(&self) -> Boundary {
         Boundary::FREE
     }

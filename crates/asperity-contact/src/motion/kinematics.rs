@@ -82,14 +82,14 @@ pub struct Motion {
     pub path: Path,
     /// Offset of the passes along y. An offset other than 0 needs a boundary periodic along y.
     pub offset_y: OffsetY,
-    /// Time, ≥ 0, for which viscoelastic bodies are apart between two passes. Without it the next pass of a shift begins from the last contact;
-    /// the bodies of an overlap then come apart for no time.
+    /// Time, ≥ 0, for which viscoelastic bodies are apart between two passes. Without it the next pass of a
+    /// shift begins from the last contact; the bodies of an overlap then come apart for no time.
     pub pause: Second,
 }
 
 impl Motion {
-    /// Creates a motion of one pass in steps of one cell, without friction. A load holds as the mean over the pass to 10⁻⁴,
-    /// and plastic deformation is applied after the pass.
+    /// Creates a motion of one pass in steps of one cell, without friction. A load holds as the mean over the
+    /// pass to 10⁻⁴, and plastic deformation is applied after the pass.
     pub const fn new(strategy: Strategy, control: Control) -> Self {
         Self {
             strategy,
@@ -184,9 +184,11 @@ impl Motion {
         (self.strategy == Strategy::Overlap || self.pause > 0.0).then_some(self.pause)
     }
 
-    /// Returns the positions of a `pass`, from 1, for a lower and an upper body of `columns` columns, `width` cells across.
+    /// Returns the positions of a `pass`, from 1, for a lower and an upper body of `columns` columns, `width`
+    /// cells across.
     ///
-    /// One-way passes by a shift continue from one another: the slower surface starts where the pass before left it.
+    /// One-way passes by a shift continue from one another: the slower surface starts where the pass before
+    /// left it.
     pub fn positions(&self, columns: [usize; 2], width: usize, pass: usize) -> Vec<Position> {
         let forth = match (self.strategy, self.path) {
             (Strategy::Shift { speed_lower, speed_upper }, Path::OneWay) => {
@@ -204,8 +206,8 @@ impl Motion {
         positions
     }
 
-    /// Whether all passes have the same positions. They do if they share one offset along y, and if the surfaces of a shift
-    /// return to their start: by whole rounds, or by a return stroke.
+    /// Whether all passes have the same positions. They do if they share one offset along y, and if the
+    /// surfaces of a shift return to their start: by whole rounds, or by a return stroke.
     pub fn repeats(&self) -> bool {
         let returns = match (self.strategy, self.path) {
             (Strategy::Overlap, _) | (_, Path::Reciprocating) => true,
@@ -217,20 +219,22 @@ impl Motion {
         returns && self.offset_y == OffsetY::NONE
     }
 
-    /// Whether the bodies stay as they are during a pass. `yields` says whether a cell of them can deform plastically.
+    /// Whether the bodies stay as they are during a pass. `yields` says whether a cell of them can deform
+    /// plastically.
     pub fn is_frozen(&self, yields: bool) -> bool {
         self.plastic_update == PlasticUpdate::Pass || !yields
     }
 
-    /// Whether a device solves all positions of a pass as one batch: none depends on another, and they share an approach.
+    /// Whether a device solves all positions of a pass as one batch: none depends on another, and they share
+    /// an approach.
     pub fn is_one_batch(&self, yields: bool) -> bool {
         let shared = matches!(self.control, Control::Approach(_)) || self.load_control == LoadControl::Pass;
         self.is_frozen(yields) && shared
     }
 
-    /// Returns how many of the `positions` of a pass must be solved, the first ones. If the bodies do not change, the
-    /// return stroke repeats the contacts of the forward stroke, unless friction displaces the surfaces normally, or each position `follows`
-    /// from the one before.
+    /// Returns how many of the `positions` of a pass must be solved, the first ones. If the bodies do not
+    /// change, the return stroke repeats the contacts of the forward stroke, unless friction displaces the
+    /// surfaces normally, or each position `follows` from the one before.
     pub fn distinct(&self, positions: usize, yields: bool, couples: bool, follows: bool) -> usize {
         let stays = self.is_frozen(yields) && !follows;
         let pushed =
@@ -238,8 +242,8 @@ impl Motion {
         if self.path == Path::Reciprocating && stays && !pushed { positions / 2 } else { positions }
     }
 
-    /// Number of cells along x of the way for which each position of a stroke stands. The positions of a shift of bodies with `columns` columns share
-    /// one round.
+    /// Number of cells along x of the way for which each position of a stroke stands. The positions of a
+    /// shift of bodies with `columns` columns share one round.
     pub fn cells_of_position(&self, columns: usize) -> f64 {
         match self.strategy {
             Strategy::Overlap => self.stride as f64,
@@ -247,8 +251,9 @@ impl Motion {
         }
     }
 
-    /// Number of cells along x from the position before to the one of this `index`, from 0, of a pass of bodies with `columns` columns. The
-    /// first position of a stroke of a shift comes last on the round, and is nearer if the stride does not divide the columns.
+    /// Number of cells along x from the position before to the one of this `index`, from 0, of a pass of
+    /// bodies with `columns` columns. The first position of a stroke of a shift comes last on the round, and
+    /// is nearer if the stride does not divide the columns.
     pub fn cells_to_position(&self, index: usize, columns: usize) -> f64 {
         match self.strategy {
             Strategy::Overlap => self.stride as f64,
@@ -260,7 +265,8 @@ impl Motion {
         }
     }
 
-    /// Time in which the faster body moves by a number of `cells` of this pitch along x; NaN if the speed is not known.
+    /// Time in which the faster body moves by a number of `cells` of this pitch along x; NaN if the speed is
+    /// not known.
     pub fn time_of(&self, cells: f64, pitch: Metre) -> Second {
         let way = cells * pitch;
         match self.strategy {
@@ -269,7 +275,8 @@ impl Motion {
         }
     }
 
-    /// Distance that the bodies slide while the faster one moves by a number of `cells` of this pitch along x.
+    /// Distance that the bodies slide while the faster one moves by a number of `cells` of this pitch along
+    /// x.
     pub fn sliding_distance_of(&self, cells: f64, pitch: Metre) -> Metre {
         let way = cells * pitch;
         match self.strategy {
@@ -288,7 +295,8 @@ impl Motion {
         }
     }
 
-    /// Direction of sliding and friction on a stroke, if there is friction: the upper body slides towards its motion.
+    /// Direction of sliding and friction on a stroke, if there is friction: the upper body slides towards its
+    /// motion.
     pub fn sliding(&self, stroke: Stroke) -> Option<Sliding> {
         let direction = [stroke.sign() * self.strategy.direction(), 0.0];
         self.friction.map(|friction| Sliding { friction, direction })
@@ -299,7 +307,8 @@ impl Motion {
         self.sliding(stroke).into()
     }
 
-    /// Returns the pressure bounds of the cells of a `pair` at a position, under the shear of the sliding bodies.
+    /// Returns the pressure bounds of the cells of a `pair` at a position, under the shear of the sliding
+    /// bodies.
     pub(super) fn bounds(&self, pair: &Pair, position: &Position) -> Bounds {
         self.slip(position.stroke).sheared(pair.bounds(position))
     }

@@ -12,12 +12,13 @@ use crate::motion::rim::Interior;
 use crate::solver::{FrictionalSolution, Sliding};
 use crate::units::{Kelvin, Metre, Pascal, PerPascal, Second, WattPerSquareMetre};
 
-/// A law by which the contacts of a pass change the bodies: plastic flow, removal of material, growth of a film.
+/// A law by which the contacts of a pass change the bodies: plastic flow, removal of material, growth of a
+/// film.
 ///
-/// A law is called in two steps. [`Law::add`] reads the contact at each position, in order, and adds its effect to sums
-/// over the pass. [`Law::advance`] then changes the bodies by these sums. A law stores data between passes in
-/// [`crate::motion::Body::state`], never in itself. Results and resumed runs contain only the bodies, and a pass is tried
-/// at several approaches before one is accepted.
+/// A law is called in two steps. [`Law::add`] reads the contact at each position, in order, and adds its
+/// effect to sums over the pass. [`Law::advance`] then changes the bodies by these sums. A law stores data
+/// between passes in [`crate::motion::Body::state`], never in itself. Results and resumed runs contain only
+/// the bodies, and a pass is tried at several approaches before one is accepted.
 pub trait Law: Send + Sync {
     /// Name of the law in results, in snake case. Plastic flow is `plastic`, with its volumes in the columns
     /// `plastic_volume_lower`, ….
@@ -33,8 +34,8 @@ pub trait Law: Send + Sync {
         1
     }
 
-    /// Adds the effect of the contact at one position to the sums on the lower and on the upper body, which are zero at the
-    /// beginning of the pass.
+    /// Adds the effect of the contact at one position to the sums on the lower and on the upper body, which
+    /// are zero at the beginning of the pass.
     fn add(&self, pair: &Pair, contact_cells: &ContactCells, sums: &mut [Vec<Field>; 2]);
 
     /// Whether the law acts again in each extrapolated pass: removal does, plastic flow does not.
@@ -42,39 +43,42 @@ pub trait Law: Send + Sync {
         true
     }
 
-    /// Whether the depths that the law takes uncover the material below, which memories keep: removal of a body does, a film that
-    /// grows on it does not.
+    /// Whether the depths that the law takes uncover the material below, which memories keep: removal of a
+    /// body does, a film that grows on it does not.
     fn uncovers(&self) -> bool {
         false
     }
 
-    /// Largest depth that the law removes from each body per pressure and distance slid, 1/Pa, with shear equal to
-    /// `friction` times the pressure. If it is not 0, the first sum of the law is in proportion to the pressure. It limits the extrapolation over passes, before pressures oscillate.
+    /// Largest depth that the law removes from each body per pressure and distance slid, 1/Pa, with shear
+    /// equal to `friction` times the pressure. If it is not 0, the first sum of the law is in proportion to
+    /// the pressure. It limits the extrapolation over passes, before pressures oscillate.
     fn per_pressure(&self, friction: f64) -> [PerPascal; 2] {
         let _ = friction;
         [0.0; 2]
     }
 
-    /// [`Law::per_pressure`] for each cell of the lower and of the upper body with these sums, used to solve a contact that slides in place.
-    /// An estimate is enough, because [`Law::advance`] determines the depth removed. The closer it is, the longer the
-    /// updates may be.
+    /// [`Law::per_pressure`] for each cell of the lower and of the upper body with these sums, used to solve
+    /// a contact that slides in place. An estimate is enough, because [`Law::advance`] determines the depth
+    /// removed. The closer it is, the longer the updates may be.
     fn per_pressure_of_cells(&self, pair: &Pair, sums: &[Vec<Field>; 2], friction: f64) -> [CellValues; 2] {
         let _ = (pair, sums);
         self.per_pressure(friction).map(CellValues::Uniform)
     }
 
-    /// Changes the state of the bodies by `passes` passes with these sums. Returns the height that each cell of the lower
-    /// and of the upper body loses to the law, m, below 0 if a cell grows. The caller lowers the heights.
+    /// Changes the state of the bodies by `passes` passes with these sums. Returns the height that each cell
+    /// of the lower and of the upper body loses to the law, m, below 0 if a cell grows. The caller lowers the
+    /// heights.
     fn advance(&self, pair: &mut Pair, sums: &[Vec<Field>; 2], passes: f64) -> [Field; 2];
 
-    /// Largest depth by which the law has lowered or raised a cell of the lower and of the upper body since the beginning, m; 0 if the law does
-    /// not store it.
+    /// Largest depth by which the law has lowered or raised a cell of the lower and of the upper body since
+    /// the beginning, m; 0 if the law does not store it.
     fn deepest(&self, pair: &Pair) -> [Metre; 2] {
         let _ = pair;
         [0.0; 2]
     }
 
-    /// Fills the columns of the law in the row of a pass, from the bodies after it and the depths `taken` from them.
+    /// Fills the columns of the law in the row of a pass, from the bodies after it and the depths `taken`
+    /// from them.
     fn record_pass(&self, pair: &Pair, taken: &[Field; 2], columns: &mut LawsInPass) {
         let _ = (pair, taken, columns);
     }
@@ -92,14 +96,16 @@ pub trait Law: Send + Sync {
 
 /// The cells in contact at one position.
 ///
-/// Their quantities are slices of equal length. A cell in contact lies on one cell of each body or, in a shift, between two
-/// of its columns. [`ContactCells::add`] and [`ContactCells::keep_largest`] transfer its values to the body.
+/// Their quantities are slices of equal length. A cell in contact lies on one cell of each body or, in a
+/// shift, between two of its columns. [`ContactCells::add`] and [`ContactCells::keep_largest`] transfer its
+/// values to the body.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct ContactCells<'a> {
     /// The relative position of the bodies.
     pub position: &'a Position,
-    /// Flat cells of the lower and of the upper body under those in contact; the first one if a cell lies between two.
+    /// Flat cells of the lower and of the upper body under those in contact; the first one if a cell lies
+    /// between two.
     cells: [&'a [u32]; 2],
     placements: [Placement; 2],
     /// Pressure on each of the cells in contact, Pa.
@@ -125,8 +131,8 @@ enum Slid<'a> {
 }
 
 impl ContactCells<'_> {
-    /// Returns the distance that a cell in contact slides, by its index: on the way for which this position stands, or in an
-    /// increment, m.
+    /// Returns the distance that a cell in contact slides, by its index: on the way for which this position
+    /// stands, or in an increment, m.
     pub fn sliding_distance(&self, index: usize) -> Metre {
         match self.sliding {
             Slid::Alike(distance) => distance,
@@ -134,8 +140,9 @@ impl ContactCells<'_> {
         }
     }
 
-    /// Adds the value of each cell in contact, by its index, to a sum on a body, 0 the lower or 1 the upper one. Between
-    /// two columns the value is split by their weights, so that the total added is the sum of the values.
+    /// Adds the value of each cell in contact, by its index, to a sum on a body, 0 the lower or 1 the upper
+    /// one. Between two columns the value is split by their weights, so that the total added is the sum of
+    /// the values.
     pub fn add(&self, body: usize, sum: &mut Field, value: impl Fn(usize) -> f64) {
         let sum = sum.as_slice_mut().expect("standard layout");
         let (placement, cells) = (&self.placements[body], self.cells[body].iter().enumerate());
@@ -149,8 +156,9 @@ impl ContactCells<'_> {
         }
     }
 
-    /// Updates the largest value of each cell of a body, 0 the lower or 1 the upper one, over all positions. The values at
-    /// this position are given for each cell in contact by its index, and transferred as in [`ContactCells::add`].
+    /// Updates the largest value of each cell of a body, 0 the lower or 1 the upper one, over all positions.
+    /// The values at this position are given for each cell in contact by its index, and transferred as in
+    /// [`ContactCells::add`].
     pub fn keep_largest(&self, body: usize, largest: &mut Field, value: impl Fn(usize) -> f64) {
         let largest = largest.as_slice_mut().expect("standard layout");
         let placement = &self.placements[body];
@@ -165,8 +173,8 @@ impl ContactCells<'_> {
         }
     }
 
-    /// Returns the value of a body, 0 the lower or 1 the upper one, at a cell in contact, by its index. Between two columns
-    /// it is the weighted mean.
+    /// Returns the value of a body, 0 the lower or 1 the upper one, at a cell in contact, by its index.
+    /// Between two columns it is the weighted mean.
     pub fn value(&self, body: usize, values: &CellValues, index: usize) -> f64 {
         self.placements[body].value(values, self.cells[body][index] as usize)
     }
@@ -201,12 +209,13 @@ impl PositionData {
 /// Sums of a law over a pass, on the lower and on the upper body.
 pub type Sums = [Vec<Field>; 2];
 
-/// Computes the temperature of cells in contact, of the lower and of the upper body at a position, from the frictional heat
-/// flux on each.
+/// Computes the temperature of cells in contact, of the lower and of the upper body at a position, from the
+/// frictional heat flux on each.
 pub(super) type Heat<'a> =
     dyn FnMut([&[u32]; 2], &Position, &[WattPerSquareMetre]) -> Result<Vec<Kelvin>> + 'a;
 
-/// Returns how many of the `laws`, the first ones, act once per computed pass. The others also act in the extrapolated passes.
+/// Returns how many of the `laws`, the first ones, act once per computed pass. The others also act in the
+/// extrapolated passes.
 pub(super) fn once(laws: &[Box<dyn Law>]) -> usize {
     laws.iter().take_while(|law| !law.repeats()).count()
 }
@@ -228,8 +237,9 @@ pub(super) fn nothing_lost(laws: &[Box<dyn Law>]) -> Vec<LostVolume> {
     laws.iter().map(|law| LostVolume::nothing(law.name())).collect()
 }
 
-/// Sums `laws` over contacts on frozen bodies. `heat` computes the temperatures at each contact; without it the surfaces
-/// have the temperatures of the bodies. Returns the sums, and with `heat` the temperature of the cells of each contact.
+/// Sums `laws` over contacts on frozen bodies. `heat` computes the temperatures at each contact; without it
+/// the surfaces have the temperatures of the bodies. Returns the sums, and with `heat` the temperature of the
+/// cells of each contact.
 pub(super) fn sums(
     laws: &[Box<dyn Law>],
     pair: &Pair,
@@ -287,8 +297,8 @@ pub(super) struct CyclicSlip {
 }
 
 impl CyclicSlip {
-    /// Returns the slip of the increment of `contact`, as [`FrictionalSolution::dissipation`] counts it: the energy is the sum of
-    /// shear and distance.
+    /// Returns the slip of the increment of `contact`, as [`FrictionalSolution::dissipation`] counts it: the
+    /// energy is the sum of shear and distance.
     pub(super) fn of(contact: &FrictionalSolution, before: Option<&FrictionalSolution>) -> Self {
         let mut found =
             Self { cells: Vec::new(), pressure: Vec::new(), shear: Vec::new(), distance: Vec::new() };
@@ -348,8 +358,8 @@ pub(super) fn add_slip(
     laws.iter().zip(sums).for_each(|(law, sums)| law.add(pair, &contact_cells, sums));
 }
 
-/// Applies `laws` to a `pair` for `passes` passes with these sums. Adds the volume removed by each law to `lost`, and
-/// returns the depths removed.
+/// Applies `laws` to a `pair` for `passes` passes with these sums. Adds the volume removed by each law to
+/// `lost`, and returns the depths removed.
 pub(super) fn advance(
     laws: &[Box<dyn Law>],
     pair: &mut Pair,
@@ -367,8 +377,8 @@ pub(super) fn advance(
     depths
 }
 
-/// Returns the depth that `laws` remove from each cell of the lower and of the upper body per pressure over a `distance`,
-/// m/Pa. They act with these sums, and with shear equal to `friction` times the pressure.
+/// Returns the depth that `laws` remove from each cell of the lower and of the upper body per pressure over a
+/// `distance`, m/Pa. They act with these sums, and with shear equal to `friction` times the pressure.
 pub(super) fn compliance(
     laws: &[Box<dyn Law>],
     pair: &Pair,
@@ -395,7 +405,8 @@ pub(super) fn tried(laws: &[Box<dyn Law>], pair: &Pair, sums: &[Sums], passes: u
     laws.iter().zip(sums).map(|(law, sums)| law.advance(&mut pair, sums, passes as f64)).collect()
 }
 
-/// Returns the depth by which the `laws` that uncover material have lowered both bodies, from what each has `taken`; `None` without such laws.
+/// Returns the depth by which the `laws` that uncover material have lowered both bodies, from what each has
+/// `taken`; `None` without such laws.
 pub(super) fn uncovered(laws: &[Box<dyn Law>], taken: &[[Field; 2]]) -> Option<[Field; 2]> {
     let uncovers = laws.iter().zip(taken).filter(|(law, _)| law.uncovers());
     uncovers.map(|(_, taken)| taken.clone()).reduce(|[a, b], [c, d]| [a + c, b + d])

@@ -11,10 +11,11 @@ use crate::motion::record::LostVolume;
 use crate::motion::rim::Interior;
 use crate::subsurface::Tractions;
 
-/// A memory of the material below the surfaces: what whole load cycles do to it, and what the bodies lose by that in the end.
+/// A memory of the material below the surfaces: what whole load cycles do to it, and what the bodies lose by
+/// that in the end.
 ///
-/// A [`Law`](crate::motion::Law) adds up the contacts of a cycle one by one. A memory needs all of them together. Like a law it
-/// stores its data in [`Body::state`](crate::motion::Body::state), never in itself.
+/// A [`Law`](crate::motion::Law) adds up the contacts of a cycle one by one. A memory needs all of them
+/// together. Like a law it stores its data in [`Body::state`](crate::motion::Body::state), never in itself.
 pub trait Memory: Send + Sync {
     /// Name in results of the volumes that the bodies lose by it, in snake case; `None` if they lose nothing.
     fn takes(&self) -> Option<&str>;
@@ -31,8 +32,9 @@ pub trait Memory: Send + Sync {
     /// Largest number of cycles, ≥ 1, over which the cycle may be extrapolated.
     fn most_cycles(&self, pair: &Pair) -> f64;
 
-    /// Changes its state by so many `cycles` like the last one, in which the lower and the upper body lost these depths by laws, m; by these
-    /// alone if there are 0. Returns the further height that each cell of the bodies loses, m. The caller lowers the heights.
+    /// Changes its state by so many `cycles` like the last one, in which the lower and the upper body lost
+    /// these depths by laws, m; by these alone if there are 0. Returns the further height that each cell of
+    /// the bodies loses, m. The caller lowers the heights.
     fn advance(&self, pair: &mut Pair, cycles: f64, worn: &[Field; 2]) -> [Field; 2];
 }
 
@@ -84,7 +86,8 @@ impl<'a> LoadCycle<'a> {
         }
     }
 
-    /// Returns the tractions on a body of the `pair`, 0 the lower or 1 the upper one, in a contact, by its index.
+    /// Returns the tractions on a body of the `pair`, 0 the lower or 1 the upper one, in a contact, by its
+    /// index.
     pub fn tractions(&self, contact: usize, pair: &Pair, body: usize) -> Tractions {
         let on_lower = match self.contacts {
             Contacts::AtRest(contacts) => contacts[contact].clone(),
@@ -106,8 +109,9 @@ impl<'a> LoadCycle<'a> {
     }
 }
 
-/// Lets the `memories` go on by so many `cycles` in which laws that uncover material have taken the depth `worn` from both bodies, `None`
-/// without such laws. Returns the volumes that the bodies lose by it, and their depths.
+/// Lets the `memories` go on by so many `cycles` in which laws that uncover material have taken the depth
+/// `worn` from both bodies, `None` without such laws. Returns the volumes that the bodies lose by it, and
+/// their depths.
 pub(super) fn advance(
     memories: &[Box<dyn Memory>],
     pair: &mut Pair,

@@ -10,8 +10,8 @@ use crate::motion::course::{Step, StepRow};
 use crate::solver::Solution;
 use crate::units::{Metre, Newton, NewtonPerMetre};
 
-/// A solved contact with the fields that observers need: where the bodies touch, with what pressure, and how far apart they
-/// are elsewhere.
+/// A solved contact with the fields that observers need: where the bodies touch, with what pressure, and how
+/// far apart they are elsewhere.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct ObservedContact<'a> {

@@ -26,7 +26,8 @@ pub struct Pair {
     pitch: [Metre; 2],
     compliances: Compliances,
     response: SharedResponse,
-    /// Prescribed share of the lower body in the plastic deformation; `None` if the softer of two cells takes all of it.
+    /// Prescribed share of the lower body in the plastic deformation; `None` if the softer of two cells takes
+    /// all of it.
     share: Option<f64>,
     interface: Arc<dyn Interface>,
     /// Composite creep compliance of the lower and of the upper body; `None` if neither is viscoelastic.
@@ -37,8 +38,8 @@ impl Pair {
     /// Creates a pair of bodies with these materials; `upper` is the height of the underside.
     ///
     /// # Errors
-    /// [`Error::GridMismatch`] if pitches or transverse widths differ, [`Error::UndefinedSamples`] if heights are missing,
-    /// [`Error::OutOfRange`] if both materials are rigid and neither is coated.
+    /// [`Error::GridMismatch`] if pitches or transverse widths differ, [`Error::UndefinedSamples`] if heights
+    /// are missing, [`Error::OutOfRange`] if both materials are rigid and neither is coated.
     pub fn new(lower: Topography, upper: Topography, materials: [&Material; 2]) -> Result<Self> {
         let (a, b) = (*lower.grid(), *upper.grid());
         if (0..2).any(|axis| (a.pitch[axis] - b.pitch[axis]).abs() > 1e-9 * a.pitch[axis]) {
@@ -74,8 +75,9 @@ impl Pair {
         })
     }
 
-    /// Makes bodies viscoelastic, whose materials have the relaxed moduli: `relaxations` are those of the lower and of the upper body,
-    /// `None` for an elastic one. A load on a body at rest is borne by the relaxed modulus.
+    /// Makes bodies viscoelastic, whose materials have the relaxed moduli: `relaxations` are those of the
+    /// lower and of the upper body, `None` for an elastic one. A load on a body at rest is borne by the
+    /// relaxed modulus.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for a coated body.
@@ -96,13 +98,14 @@ impl Pair {
         Ok(self)
     }
 
-    /// Composite creep compliance of both bodies together, as long as the same cells stay opposite each other; `None` if neither is
-    /// viscoelastic.
+    /// Composite creep compliance of both bodies together, as long as the same cells stay opposite each
+    /// other; `None` if neither is viscoelastic.
     pub fn creep_together(&self) -> Option<Creep> {
         self.creep.as_ref().map(|[lower, upper]| lower.plus(upper))
     }
 
-    /// Composite creep compliance of the lower and of the upper body, (1 − ν²) J(t); `None` if neither is viscoelastic.
+    /// Composite creep compliance of the lower and of the upper body, (1 − ν²) J(t); `None` if neither is
+    /// viscoelastic.
     pub fn creep(&self) -> Option<&[Creep; 2]> {
         self.creep.as_ref()
     }
@@ -126,7 +129,8 @@ impl Pair {
         Self { share: Some(share), ..self }
     }
 
-    /// Sets the interface of the bodies, by default [`HardWall`]. Static contacts without friction and passes take it into account.
+    /// Sets the interface of the bodies, by default [`HardWall`]. Static contacts without friction and passes
+    /// take it into account.
     #[must_use]
     pub fn with_interface(self, interface: Arc<dyn Interface>) -> Self {
         Self { interface, ..self }
@@ -134,8 +138,8 @@ impl Pair {
 
     /// Replaces the elastic response of the materials by another `response`.
     ///
-    /// Hardness and plastic share stay those of the materials. So do [`Pair::modulus`] and [`Pair::compliances`], which
-    /// then no longer affect any contact.
+    /// Hardness and plastic share stay those of the materials. So do [`Pair::modulus`] and
+    /// [`Pair::compliances`], which then no longer affect any contact.
     pub fn with_response(self, response: impl Into<SharedResponse>) -> Self {
         Self { response: response.into(), ..self }
     }
@@ -170,8 +174,8 @@ impl Pair {
         &self.response
     }
 
-    /// Whether pressure displaces the bodies tangentially, and shear displaces them normally; false if the response to
-    /// shear is unknown.
+    /// Whether pressure displaces the bodies tangentially, and shear displaces them normally; false if the
+    /// response to shear is unknown.
     pub(super) fn couples(&self) -> bool {
         self.response.coupled().is_some_and(|coupled| coupled.couples())
     }
@@ -200,7 +204,8 @@ impl Pair {
         }
     }
 
-    /// Returns [`Error::Unsupported`] if viscoelastic bodies yield or have an interface other than hard walls.
+    /// Returns [`Error::Unsupported`] if viscoelastic bodies yield or have an interface other than hard
+    /// walls.
     pub(super) fn check_creep(&self) -> Result<()> {
         if self.creep.is_some() && (!self.interface.is_hard() || self.yields()) {
             Err(Error::Unsupported("viscoelastic bodies that attract each other or have a hardness"))
@@ -209,15 +214,15 @@ impl Pair {
         }
     }
 
-    /// Creates the operators of contacts on grids up to `largest`; [`Error::Unsupported`] if the response does not support
-    /// the boundary.
+    /// Creates the operators of contacts on grids up to `largest`; [`Error::Unsupported`] if the response
+    /// does not support the boundary.
     pub(super) fn operators(&self, largest: Grid, boundary: Boundary) -> Result<Operators> {
         self.check_line(&largest, boundary)?;
         Ok(Operators::new(largest, self.response.clone(), boundary))
     }
 
-    /// Returns [`Error::Unsupported`] if the boundary is periodic along one axis of a grid and the response to a line of
-    /// cells is unknown.
+    /// Returns [`Error::Unsupported`] if the boundary is periodic along one axis of a grid and the response
+    /// to a line of cells is unknown.
     pub fn check_line(&self, largest: &Grid, boundary: Boundary) -> Result<()> {
         let line = boundary.line(largest, boundary.datum(largest));
         if line.is_some_and(|line| self.response.line_influence(&line, self.pitch).is_none()) {
@@ -228,8 +233,8 @@ impl Pair {
         Ok(())
     }
 
-    /// Returns the shares of the lower and of the upper body in the plastic deformation of cells with this `hardness`: all
-    /// for the softer, half each if both are equally hard.
+    /// Returns the shares of the lower and of the upper body in the plastic deformation of cells with this
+    /// `hardness`: all for the softer, half each if both are equally hard.
     pub fn plastic_shares(&self, hardness: [Pascal; 2]) -> [f64; 2] {
         let lower = self.share.unwrap_or_else(|| plastic_share(hardness[0], hardness[1]));
         [lower, 1.0 - lower]
@@ -263,7 +268,8 @@ impl Pair {
         self.lower.hardness.min().min(self.upper.hardness.min())
     }
 
-    /// Returns the pressure bounds on the cells of the overlap without shear: the hardness of the softer cell.
+    /// Returns the pressure bounds on the cells of the overlap without shear: the hardness of the softer
+    /// cell.
     pub fn bounds(&self, position: &Position) -> Bounds {
         self.bounds_of([&self.lower.hardness, &self.upper.hardness], position)
     }
@@ -323,8 +329,9 @@ impl Pair {
         position.placements([self.lower_grid().shape, self.upper_grid().shape])
     }
 
-    /// Returns the flat cells of the lower and of the upper body under a flat cell of the contact at `position`. If it lies
-    /// between two columns, this is the first one, whose weight is 1 − [`Position::fraction`].
+    /// Returns the flat cells of the lower and of the upper body under a flat cell of the contact at
+    /// `position`. If it lies between two columns, this is the first one, whose weight is 1 −
+    /// [`Position::fraction`].
     pub fn cells_of_bodies(&self, position: &Position, cell: usize) -> [usize; 2] {
         self.placements(position).map(|placement| placement.cell(cell))
     }

@@ -27,8 +27,8 @@ pub struct Paraboloid {
 }
 
 impl Paraboloid {
-    /// Fits the paraboloid closest to `gap`. Returns `None` if it explains less than nine tenths of the variance of the gap
-    /// about a plane: such a gap is rough rather than curved.
+    /// Fits the paraboloid closest to `gap`. Returns `None` if it explains less than nine tenths of the
+    /// variance of the gap about a plane: such a gap is rough rather than curved.
     pub fn of(gap: &Field, pitch: [Metre; 2]) -> Option<Self> {
         /// Smallest fraction of the variance of the gap that a paraboloid must explain.
         const DOMINATES: f64 = 0.9;
@@ -99,8 +99,8 @@ impl Paraboloid {
         usize::from(self.direction[0].abs() > 1.0 / SQRT_2)
     }
 
-    /// Returns Hertz' contact of the paraboloid under `control`, with the approach relative to the gap `touch`. `None` if
-    /// the gap does not open outwards in all directions, or if nothing presses.
+    /// Returns Hertz' contact of the paraboloid under `control`, with the approach relative to the gap
+    /// `touch`. `None` if the gap does not open outwards in all directions, or if nothing presses.
     pub fn hertz(&self, modulus: Pascal, control: Control, touch: Metre) -> Option<HertzEllipse> {
         if self.is_endless() {
             return None;

@@ -21,14 +21,15 @@ use crate::operator::Operators;
 use crate::solver::{Control, Equilibrium, Params, Solution};
 use crate::units::{Kelvin, Newton};
 
-/// A pass at one prescribed load or approach: its contacts and the pair. The laws still have to change the pair, unless they
-/// have done so position by position.
+/// A pass at one prescribed load or approach: its contacts and the pair. The laws still have to change the
+/// pair, unless they have done so position by position.
 pub(super) struct Pass {
     /// The contacts at the positions.
     pub(super) contacts: Vec<Contact>,
     /// The bodies, possibly changed by each position.
     pub(super) pair: Pair,
-    /// The depths that the laws that repeat have taken from both bodies, if all laws have changed the bodies position by position.
+    /// The depths that the laws that repeat have taken from both bodies, if all laws have changed the bodies
+    /// position by position.
     pub(super) taken: Option<Vec<[Field; 2]>>,
     /// Volumes removed from the bodies by each law.
     pub(super) lost: Vec<LostVolume>,
@@ -44,7 +45,8 @@ pub(super) struct Drag {
     pub(super) positions: Vec<Newton>,
     /// Cells from the position before to each position.
     pub(super) cells: Vec<f64>,
-    /// Drag while the bodies come apart, after the last position, times the cells of this step; 0 if they stay in contact, or if they are lifted.
+    /// Drag while the bodies come apart, after the last position, times the cells of this step; 0 if they
+    /// stay in contact, or if they are lifted.
     pub(super) leaving: Newton,
 }
 
@@ -87,8 +89,8 @@ const SAMPLED: usize = 8;
 const MAX_ROUGH_CONVOLUTIONS: usize = 300;
 
 impl Solver<'_> {
-    /// Solves all positions roughly, to a residual above that of the `params`. If a rough solution fails, it falls back to
-    /// the residual of the `params`, because a rough solution must not cause an error.
+    /// Solves all positions roughly, to a residual above that of the `params`. If a rough solution fails, it
+    /// falls back to the residual of the `params`, because a rough solution must not cause an error.
     pub(super) fn solve_roughly(
         &self,
         pair: &Pair,
@@ -130,8 +132,8 @@ impl Solver<'_> {
         Error::AtPosition { pass, position: index + 1, positions, source }
     }
 
-    /// Returns the largest difference between the loads of a pass and those of bodies that come from the position before, over the mean
-    /// of |W|. It solves every eighth position again, and the one before it.
+    /// Returns the largest difference between the loads of a pass and those of bodies that come from the
+    /// position before, over the mean of |W|. It solves every eighth position again, and the one before it.
     ///
     /// # Errors
     /// The errors of the contacts.
@@ -170,7 +172,8 @@ impl Solver<'_> {
         Ok(if mean > 0.0 { largest / mean } else { 0.0 })
     }
 
-    /// Solves all positions, starting from the contacts of up to two earlier trials at the same positions, latest first.
+    /// Solves all positions, starting from the contacts of up to two earlier trials at the same positions,
+    /// latest first.
     pub(super) fn solve(
         &self,
         pair: &Pair,

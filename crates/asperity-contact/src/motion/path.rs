@@ -12,7 +12,8 @@ use asperity_base::choice::choice;
 pub enum Path {
     /// All positions once.
     OneWay,
-    /// All positions in a forward stroke, then in reverse order in a return stroke with sliding and friction reversed.
+    /// All positions in a forward stroke, then in reverse order in a return stroke with sliding and friction
+    /// reversed.
     Reciprocating,
 }
 
@@ -68,9 +69,9 @@ impl OffsetY {
 
 /// A relative position: which columns of the lower and of the upper body overlap.
 ///
-/// Column `j` of the contact is column `lower + j` of the lower body and `upper + j` of the upper one, both counted
-/// cyclically (in an overlap neither wraps around). If a surface lies between two of its columns, column `j` is displaced
-/// from that column to the next by the `fraction` of the body.
+/// Column `j` of the contact is column `lower + j` of the lower body and `upper + j` of the upper one, both
+/// counted cyclically (in an overlap neither wraps around). If a surface lies between two of its columns,
+/// column `j` is displaced from that column to the next by the `fraction` of the body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Position {
     /// Columns by which the upper body has moved to the right of the lower one.
@@ -79,8 +80,8 @@ pub struct Position {
     pub lower: usize,
     /// First column of the upper body in the overlap.
     pub upper: usize,
-    /// Fraction of a column, 0 ≤ fraction < 1, by which the contact is displaced from the columns of the lower and of the
-    /// upper body.
+    /// Fraction of a column, 0 ≤ fraction < 1, by which the contact is displaced from the columns of the
+    /// lower and of the upper body.
     pub fraction: [f64; 2],
     /// Number of columns of the overlap.
     pub columns: usize,
@@ -124,10 +125,11 @@ impl Position {
     }
 }
 
-/// Returns the positions of an overlap pass: the upper body enters from the left, passes over and leaves on the right.
+/// Returns the positions of an overlap pass: the upper body enters from the left, passes over and leaves on
+/// the right.
 ///
-/// There are `lower + upper − 1` positions at which the bodies overlap. Every `stride`-th is returned, always including the
-/// one at which the left edges are flush.
+/// There are `lower + upper − 1` positions at which the bodies overlap. Every `stride`-th is returned, always
+/// including the one at which the left edges are flush.
 pub fn overlap_positions(lower: usize, upper: usize, stride: usize) -> Vec<Position> {
     // A stride larger than both bodies leaves one position.
     let stride = stride.min(lower + upper);
@@ -149,10 +151,11 @@ pub fn overlap_positions(lower: usize, upper: usize, stride: usize) -> Vec<Posit
         .collect()
 }
 
-/// Returns the positions of a pass by circular shift: the faster surface goes once around, `stride` columns per step.
+/// Returns the positions of a pass by circular shift: the faster surface goes once around, `stride` columns
+/// per step.
 ///
-/// All `columns` overlap throughout. Equal speeds are rolling, a zero speed is sliding. The slower surface moves by
-/// fractions of a column if the ratio of the speeds requires it.
+/// All `columns` overlap throughout. Equal speeds are rolling, a zero speed is sliding. The slower surface
+/// moves by fractions of a column if the ratio of the speeds requires it.
 pub fn shift_positions(
     columns: usize,
     stride: usize,

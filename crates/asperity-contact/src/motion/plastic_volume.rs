@@ -26,7 +26,8 @@ pub struct PlasticVolume {
     pub residual_stress: TensorField,
     /// Inward displacement r of the surface, m.
     pub displacement: Field,
-    /// Largest accumulated plastic strain and its place: x and y from the corner of the body, z from its surface.
+    /// Largest accumulated plastic strain and its place: x and y from the corner of the body, z from its
+    /// surface.
     pub max_strain: (f64, [Metre; 3]),
     /// Volume that has yielded.
     pub yielded_volume: CubicMetre,
@@ -124,7 +125,8 @@ impl PlasticVolume {
         most - least
     }
 
-    /// Displacement of the surface along +x relative to the deep material, as the mean over the grid: −∫ 2 ε_xz dz.
+    /// Displacement of the surface along +x relative to the deep material, as the mean over the grid: −∫ 2
+    /// ε_xz dz.
     fn shift(&self, strain: &TensorField) -> Metre {
         let shear = strain.index_axis(ndarray::Axis(1), Component::Xz as usize);
         let layers = shear.outer_iter().zip(self.faces.windows(2));
@@ -153,7 +155,8 @@ impl PlasticVolume {
     }
 }
 
-/// Returns a `pair` with its surfaces displaced by the plastic strain; with `sign` −1 the displacement is removed.
+/// Returns a `pair` with its surfaces displaced by the plastic strain; with `sign` −1 the displacement is
+/// removed.
 pub(super) fn displaced(mut pair: Pair, volumes: &[PlasticVolume], sign: f64) -> Pair {
     volumes.iter().for_each(|volume| displace(&mut pair, volume.body, &volume.displacement, sign));
     pair
@@ -266,8 +269,8 @@ impl PlasticRecord {
 }
 
 impl PassPlasticRecord {
-    /// Returns the record of a pass from the states `before` to these volumes. Plastic work is given in the lower and in
-    /// the upper body, and under the outer columns of the overlap.
+    /// Returns the record of a pass from the states `before` to these volumes. Plastic work is given in the
+    /// lower and in the upper body, and under the outer columns of the overlap.
     pub(super) fn of(
         volumes: &[PlasticVolume],
         before: &[PlasticState],

@@ -14,11 +14,12 @@ use crate::solver::{
 };
 use crate::units::Joule;
 
-/// Presses a pair of bodies together at full overlap, at once, in a slip `regime`. Bodies that stick in part begin without shear.
+/// Presses a pair of bodies together at full overlap, at once, in a slip `regime`. Bodies that stick in part
+/// begin without shear.
 ///
 /// # Errors
-/// The errors of [`crate::solver::solve_normal`], those of [`crate::solver::solve_rolling`] for bodies that roll, and
-/// [`crate::Error::Interrupted`].
+/// The errors of [`crate::solver::solve_normal`], those of [`crate::solver::solve_rolling`] for bodies that
+/// roll, and [`crate::Error::Interrupted`].
 ///
 /// # Panics
 /// If the bodies have different shapes.

@@ -31,8 +31,8 @@ impl Regime {
     }
 }
 
-/// Returns the ratcheting rates in the last of these passes: the growth of the largest plastic strain, and the displacement
-/// along x of the surface of the body that moves more.
+/// Returns the ratcheting rates in the last of these passes: the growth of the largest plastic strain, and
+/// the displacement along x of the surface of the body that moves more.
 pub(super) fn rates(passes: &[PassPlasticRecord]) -> Option<(f64, Metre)> {
     let [.., before, last] = passes else { return None };
     let strain = |pass: &PassPlasticRecord| pass.max_plastic_strain_lower.max(pass.max_plastic_strain_upper);

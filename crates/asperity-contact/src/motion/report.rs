@@ -24,18 +24,18 @@ pub struct PassReport<'a> {
     pub contacts: &'a [Contact],
     /// The bodies after the pass.
     pub pair: &'a Pair,
-    /// Largest pressure that the cells of the lower and of the upper body could carry at the beginning of the pass, Pa.
-    /// Growth or removal of a film changes the hardness of the bodies after the pass.
+    /// Largest pressure that the cells of the lower and of the upper body could carry at the beginning of the
+    /// pass, Pa. Growth or removal of a film changes the hardness of the bodies after the pass.
     pub hardness: [&'a CellValues; 2],
     /// The parameters of the motion.
     pub motion: &'a Motion,
-    /// The state in which the next pass begins. [`crate::motion::Simulation::resumed`] continues from it with the same
-    /// bits.
+    /// The state in which the next pass begins. [`crate::motion::Simulation::resumed`] continues from it with
+    /// the same bits.
     pub warm: &'a WarmStart,
     /// The plastic state below the surfaces after unloading; empty for other than elasto-plastic bodies.
     pub plastic_volumes: &'a [PlasticVolume],
-    /// The plastic state under the load at the [selected position](crate::motion::Simulation::with_state_under_load); empty if none is
-    /// selected.
+    /// The plastic state under the load at the [selected
+    /// position](crate::motion::Simulation::with_state_under_load); empty if none is selected.
     pub states_under_load: &'a [PlasticState],
 }
 
@@ -61,7 +61,8 @@ pub struct CycleReport<'a> {
 }
 
 impl CycleReport<'_> {
-    /// Whether the course is to stop. A long computation about the cycle then ends with [`Error::Interrupted`](crate::Error::Interrupted).
+    /// Whether the course is to stop. A long computation about the cycle then ends with
+    /// [`Error::Interrupted`](crate::Error::Interrupted).
     pub fn stop(&self) -> bool {
         self.watch.stop()
     }
@@ -95,8 +96,8 @@ impl PassReport<'_> {
         regime.sheared(self.pair.bounds_of(self.hardness, &contact.position))
     }
 
-    /// Computes the mean pressure over the positions of the pass on each cell of the lower and of the upper body, Pa; tension of
-    /// bodies that attract each other counts as below 0.
+    /// Computes the mean pressure over the positions of the pass on each cell of the lower and of the upper
+    /// body, Pa; tension of bodies that attract each other counts as below 0.
     pub fn mean_pressure(&self) -> [Field; 2] {
         let mut mean = [&self.pair.lower, &self.pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));
         for contact in self.contacts {

@@ -16,12 +16,12 @@ pub struct Interior {
 }
 
 impl Interior {
-    /// Creates the interiors of the lower and of the upper body with these `shapes`. The rim is the fraction `rim` of their
-    /// length, 0 to ½. The interior holds the cells whose centres are farther than `rim` × length from each free end, and
-    /// at least the one or two cells in the middle.
+    /// Creates the interiors of the lower and of the upper body with these `shapes`. The rim is the fraction
+    /// `rim` of their length, 0 to ½. The interior holds the cells whose centres are farther than `rim` ×
+    /// length from each free end, and at least the one or two cells in the middle.
     ///
-    /// Ends along x are free in an overlap. A shift joins the ends, but those of a stationary body are free under a
-    /// boundary that is free along x. Ends along y are free under a boundary that is free along y.
+    /// Ends along x are free in an overlap. A shift joins the ends, but those of a stationary body are free
+    /// under a boundary that is free along x. Ends along y are free under a boundary that is free along y.
     pub fn of_bodies(shapes: [[usize; 2]; 2], boundary: Boundary, strategy: Strategy, rim: f64) -> [Self; 2] {
         let ends = match strategy {
             Strategy::Overlap => [true; 2],

@@ -27,8 +27,8 @@ use crate::solver::{
 use crate::temperature::{FlashStep, SteadyTemperature};
 use crate::units::{Dimension, Kelvin, Metre, MetrePerSecond, Second};
 
-/// Sliding in place. The upper body slides towards +x, while the cells of the lower body stay under
-/// the same cells of the upper one. Examples are a pin on a disc, and a body that is worn uniformly along its path.
+/// Sliding in place. The upper body slides towards +x, while the cells of the lower body stay under the same
+/// cells of the upper one. Examples are a pin on a disc, and a body that is worn uniformly along its path.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Slide {
@@ -43,9 +43,9 @@ pub struct Slide {
 }
 
 impl Slide {
-    /// Slides over a `distance`, > 0, in `updates` updates, ≥ 1. The i-th ends at distance · (i/updates)², because a
-    /// worn contact changes ever more slowly. An update is a step of backward Euler. The error of depths is of first
-    /// order in the number of updates; worn volumes have none.
+    /// Slides over a `distance`, > 0, in `updates` updates, ≥ 1. The i-th ends at distance · (i/updates)²,
+    /// because a worn contact changes ever more slowly. An update is a step of backward Euler. The error of
+    /// depths is of first order in the number of updates; worn volumes have none.
     pub fn graded(distance: Metre, updates: usize, control: Control) -> Self {
         let end = |update: usize| distance * (update as f64 / updates as f64).powi(2);
         Self::to((1..=updates).map(end).collect(), control)
@@ -73,8 +73,8 @@ impl Slide {
         self.friction.map(|friction| Sliding { friction, direction: [1.0, 0.0] })
     }
 
-    /// Returns the data of an update that laws need besides the contact; `update` is the index of the distance at its end, and `bulk` the temperature of each
-    /// body.
+    /// Returns the data of an update that laws need besides the contact; `update` is the index of the
+    /// distance at its end, and `bulk` the temperature of each body.
     fn position_data(&self, update: usize, bulk: [Kelvin; 2]) -> PositionData {
         let before = if update == 0 { 0.0 } else { self.ends[update - 1] };
         let distance = self.ends[update] - before;
@@ -153,11 +153,13 @@ pub struct SlidingOutcome {
 
 /// Two bodies that slide in place.
 ///
-/// An update is implicit (backward Euler): the contact is solved on the bodies at the end of the update, worn by κ p. This
-/// is the contact problem with [`Compliant`](crate::operator::Compliant) cells, κ = Σ k |Δs| over both bodies, cell by cell. Pressures therefore stay
-/// smooth for any length of an update, and the worn volume is k W |Δs| to round-off. The coefficient of a cell under a film
-/// is evaluated at the mean film thickness of the update, found together with the contact. Film growth and plastic
-/// deformation use the bodies at the beginning of the update. A viscoelastic upper body creeps meanwhile, by the pressures on its own cells.
+/// An update is implicit (backward Euler): the contact is solved on the bodies at the end of the update, worn
+/// by κ p. This is the contact problem with [`Compliant`](crate::operator::Compliant) cells, κ = Σ k |Δs|
+/// over both bodies, cell by cell. Pressures therefore stay smooth for any length of an update, and the worn
+/// volume is k W |Δs| to round-off. The coefficient of a cell under a film is evaluated at the mean film
+/// thickness of the update, found together with the contact. Film growth and plastic deformation use the
+/// bodies at the beginning of the update. A viscoelastic upper body creeps meanwhile, by the pressures on its
+/// own cells.
 pub struct SlidingContact {
     slide: Slide,
     boundary: Boundary,
@@ -169,18 +171,19 @@ pub struct SlidingContact {
     pair: Pair,
 }
 
-/// Largest change of the coefficients from one solution of an update to the next at which they have converged, relative to
-/// the largest coefficient.
+/// Largest change of the coefficients from one solution of an update to the next at which they have
+/// converged, relative to the largest coefficient.
 const COEFFICIENT_ACCURACY: f64 = 1e-4;
-/// Number of solutions of an update after which its coefficients are accepted. They then change by less than the film does.
+/// Number of solutions of an update after which its coefficients are accepted. They then change by less than
+/// the film does.
 const MAX_SOLUTIONS: usize = 12;
 
 impl SlidingContact {
     /// Creates a contact of a `pair` at full overlap.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] or [`Error::Unsupported`] for invalid input, [`Error::BeyondPlasticLimit`] if the bodies
-    /// cannot carry the load.
+    /// [`Error::OutOfRange`] or [`Error::Unsupported`] for invalid input, [`Error::BeyondPlasticLimit`] if
+    /// the bodies cannot carry the load.
     ///
     /// # Panics
     /// If the bodies have different shapes.
@@ -203,12 +206,12 @@ impl SlidingContact {
         })
     }
 
-    /// Sets what updates do to the bodies, besides plastic deformation, which acts first. The contact is stationary on the upper body, and its
-    /// heat moves over the lower one at the sliding speed.
+    /// Sets what updates do to the bodies, besides plastic deformation, which acts first. The contact is
+    /// stationary on the upper body, and its heat moves over the lower one at the sliding speed.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for heat without friction, a speed or temperatures of the bodies, for an extrapolation and for memories of load
-    /// cycles; the errors of [`SteadyTemperature::new`].
+    /// [`Error::Unsupported`] for heat without friction, a speed or temperatures of the bodies, for an
+    /// extrapolation and for memories of load cycles; the errors of [`SteadyTemperature::new`].
     pub fn with_changes(mut self, mut changes: Changes) -> Result<Self> {
         if changes.jumps() || !changes.memories.is_empty() {
             return Err(Error::Unsupported("sliding in place has no cycles to extrapolate or to remember"));
@@ -235,8 +238,8 @@ impl SlidingContact {
         &self.slide
     }
 
-    /// Slides the whole distance, from the beginning or from a state `under_way`. A resumed contact gives the same result,
-    /// bit by bit.
+    /// Slides the whole distance, from the beginning or from a state `under_way`. A resumed contact gives the
+    /// same result, bit by bit.
     ///
     /// # Errors
     /// The errors of [`crate::solver::solve_normal`], of [`SteadyTemperature::solve`] and of the outputs;
@@ -338,7 +341,8 @@ impl SlidingContact {
         Ok(state.after(pressed, record, time))
     }
 
-    /// Solves the contact after a `state` with the additional cell `compliance`, at the end of an update of this `time`, after `done` updates.
+    /// Solves the contact after a `state` with the additional cell `compliance`, at the end of an update of
+    /// this `time`, after `done` updates.
     fn press(
         &mut self,
         state: &SlidingState,
@@ -375,8 +379,8 @@ impl SlidingContact {
         Ok(Pressed { solution, contact, elastic })
     }
 
-    /// Returns the depth κ that laws remove from each cell of both bodies per pressure over a `distance`, m/Pa, with these
-    /// sums; nothing where the attraction of the bodies pulls by this `pressure`.
+    /// Returns the depth κ that laws remove from each cell of both bodies per pressure over a `distance`,
+    /// m/Pa, with these sums; nothing where the attraction of the bodies pulls by this `pressure`.
     fn compliance(&self, pair: &Pair, sums: &[Sums], distance: Metre, pressure: &Field) -> CellValues {
         let friction = self.slide.friction.map_or(0.0, |friction| friction.coefficient);
         let [lower, upper] = law::compliance(&self.changes.laws, pair, sums, friction, distance);

@@ -22,10 +22,12 @@ pub enum SlipRegime {
 }
 
 impl SlipRegime {
-    /// Creates the solver of contacts of a `pair` in this regime on `shape` cells. It is the one place in which a solver is chosen.
+    /// Creates the solver of contacts of a `pair` in this regime on `shape` cells. It is the one place in
+    /// which a solver is chosen.
     ///
     /// # Errors
-    /// [`Error::Unsupported`](crate::Error::Unsupported) if the interface or the bodies of the pair do not support the regime.
+    /// [`Error::Unsupported`](crate::Error::Unsupported) if the interface or the bodies of the pair do not
+    /// support the regime.
     pub fn solver(
         self,
         pair: &Pair,
@@ -53,7 +55,8 @@ impl SlipRegime {
         })
     }
 
-    /// Returns the `bounds` of cells without shear under the shear of this regime, as far as it is known before the pressure.
+    /// Returns the `bounds` of cells without shear under the shear of this regime, as far as it is known
+    /// before the pressure.
     pub fn sheared(self, bounds: Bounds) -> Bounds {
         match self {
             Self::Sliding(sliding) => sliding.friction.sliding_bounds(&bounds),

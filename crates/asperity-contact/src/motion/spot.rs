@@ -2,12 +2,12 @@
 
 use crate::grid::Spots;
 
-/// Width in cells of the largest contact spot, which is the one with the most cells: its number of columns or rows,
-/// whichever is smaller; 0 without contact. A spot that goes all around a periodic axis has no end along it, and its width
-/// is the one along the other axis.
+/// Width in cells of the largest contact spot, which is the one with the most cells: its number of columns or
+/// rows, whichever is smaller; 0 without contact. A spot that goes all around a periodic axis has no end
+/// along it, and its width is the one along the other axis.
 ///
-/// `cells` are the flat cells in contact in ascending order on a grid of `shape`. They are connected over edges and corners
-/// and, if the grid is `periodic` along x or y, across its boundary.
+/// `cells` are the flat cells in contact in ascending order on a grid of `shape`. They are connected over
+/// edges and corners and, if the grid is `periodic` along x or y, across its boundary.
 pub fn largest_spot(cells: impl Iterator<Item = usize>, shape: [usize; 2], periodic: [bool; 2]) -> usize {
     let spots = Spots::new(cells, shape, periodic);
     let counts = spots.counts();

@@ -8,16 +8,18 @@ use crate::units::{Metre, Newton, Second};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Stage {
-    /// Loading at the end of the stage, or of the way there in a cycle. Without friction, tangential values have no effect.
+    /// Loading at the end of the stage, or of the way there in a cycle. Without friction, tangential values
+    /// have no effect.
     pub loading: Loading,
     /// Number of equal steps, ≥ 1; in a cycle of each way.
     pub increments: usize,
-    /// Cycles, in each of which the loading goes there and comes back; `None` if it goes there once and stays.
+    /// Cycles, in each of which the loading goes there and comes back; `None` if it goes there once and
+    /// stays.
     pub cycles: Option<Cycles>,
     /// Time of the stage, which viscoelastic bodies need.
     pub time: StageTime,
-    /// Whether the normal and the tangential loading stay at their values at the beginning of the stage, in the kind of its `loading`. They do
-    /// after cycles that began at a value which only the contact knows.
+    /// Whether the normal and the tangential loading stay at their values at the beginning of the stage, in
+    /// the kind of its `loading`. They do after cycles that began at a value which only the contact knows.
     pub stays: [bool; 2],
 }
 
@@ -29,7 +31,8 @@ pub enum StageTime {
     Sudden,
     /// All of its steps together take this time, > 0, each the same part of it.
     Even(Second),
-    /// All of its steps together take this time, > 0; the first k of n steps take (k/n)² of it, as for a body that creeps fast at first.
+    /// All of its steps together take this time, > 0; the first k of n steps take (k/n)² of it, as for a body
+    /// that creeps fast at first.
     Growing(Second),
 }
 
@@ -49,8 +52,8 @@ pub struct Progress {
     pub stage: usize,
     /// Cycles of the stage that are done, with those that were not computed.
     pub cycles: usize,
-    /// Step of the stage, or of the present cycle, from 1. Step 0 of a cycle brings the contact into equilibrium on bodies that have
-    /// changed; its slip is not one of the cycle.
+    /// Step of the stage, or of the present cycle, from 1. Step 0 of a cycle brings the contact into
+    /// equilibrium on bodies that have changed; its slip is not one of the cycle.
     pub step: usize,
 }
 
@@ -110,7 +113,8 @@ impl Stage {
         }
     }
 
-    /// Returns the loading of a step that began at `origin`, and its share of the time of a cycle; 0 without cycles.
+    /// Returns the loading of a step that began at `origin`, and its share of the time of a cycle; 0 without
+    /// cycles.
     pub(super) fn at(&self, step: usize, origin: &Origin) -> (Loading, f64) {
         let n = self.increments;
         let towards = |part: usize| self.towards(part as f64 / n as f64, origin);
@@ -137,8 +141,8 @@ impl Progress {
         stage.cycles.is_some() && self.step == stage.steps()
     }
 
-    /// Returns the step after the next one. A cycle that ends with it stands for `represented` cycles; `changes` tells whether the
-    /// heights of the bodies change with it.
+    /// Returns the step after the next one. A cycle that ends with it stands for `represented` cycles;
+    /// `changes` tells whether the heights of the bodies change with it.
     pub(super) fn after(self, stages: &[Stage], represented: usize, changes: bool) -> Self {
         let stage = &stages[self.stage];
         if self.step < stage.steps() {
@@ -153,7 +157,8 @@ impl Progress {
         }
     }
 
-    /// Returns the least number of steps that are left, if each computed cycle to come stands for `represented` cycles.
+    /// Returns the least number of steps that are left, if each computed cycle to come stands for
+    /// `represented` cycles.
     pub(super) fn left(&self, stages: &[Stage], represented: usize) -> usize {
         let Some(stage) = stages.get(self.stage) else { return 0 };
         let later = Stage::increments(&stages[self.stage + 1..]);

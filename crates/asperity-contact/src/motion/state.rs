@@ -32,10 +32,11 @@ pub struct LoadedContact {
     pub solution: Equilibrium,
     /// Plastic interference of both bodies together, m.
     pub plastic: Field,
-    /// Sum of the slip of all increments along x and y, m; in rolling, the slip while the contact moves on by a cell;
-    /// `None` without friction.
+    /// Sum of the slip of all increments along x and y, m; in rolling, the slip while the contact moves on by
+    /// a cell; `None` without friction.
     pub slip: Option<[Field; 2]>,
-    /// Bound on the error of the frictional energy in the record, without the contribution of the first increment: see
+    /// Bound on the error of the frictional energy in the record, without the contribution of the first
+    /// increment: see
     /// [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
     pub dissipation_error: Joule,
     /// Bodies that laws have changed; `None` if none did.
@@ -57,7 +58,8 @@ pub struct LoadingState {
     pub flattening: Flattening,
     /// Sum of the slip of all increments along x and y, m; `None` without friction.
     pub slip: Option<[Field; 2]>,
-    /// Sum over the increments of [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
+    /// Sum over the increments of
+    /// [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
     pub dissipation_error: Joule,
     /// The next increment.
     pub next: Progress,
@@ -70,8 +72,8 @@ pub struct LoadingState {
 /// Plastic interference of the cells of a contact over its loading.
 #[derive(Debug, Clone)]
 pub struct Flattening {
-    /// Permanent plastic flattening, m: both bodies are lowered by it together. `None` before plastic cells are first
-    /// unloaded.
+    /// Permanent plastic flattening, m: both bodies are lowered by it together. `None` before plastic cells
+    /// are first unloaded.
     pub kept: Option<Field>,
     /// Largest plastic interference of each cell, m, on the surfaces lowered by `kept`.
     pub deepest: Field,
@@ -124,7 +126,8 @@ pub struct SlidingState {
     pub updates: Vec<UpdateRecord>,
     /// Pressure of the last update, Pa.
     pub pressure: Field,
-    /// The last contact of bodies that attract each other, from which they come to the next one; `None` between hard walls.
+    /// The last contact of bodies that attract each other, from which they come to the next one; `None`
+    /// between hard walls.
     pub contact: Option<Solution>,
     /// Memory of viscoelastic bodies; `None` for others.
     pub memory: Option<CreepMemory>,
@@ -359,7 +362,8 @@ impl CourseState for SlidingState {
 }
 
 impl SlidingState {
-    /// Restores the state of a contact of a `pair` after these `updates`. The bodies have the hardness of the `pair`, without their films.
+    /// Restores the state of a contact of a `pair` after these `updates`. The bodies have the hardness of the
+    /// `pair`, without their films.
     ///
     /// # Errors
     /// The errors of the reader.

@@ -10,7 +10,8 @@ use crate::solver::{Control, Equilibrium, Params, Watch};
 use crate::units::{Metre, MetrePerSecond};
 use crate::viscoelastic::{Creep, SteadySliding, solve_steady};
 
-/// Largest difference of heights along x of a body that counts as smooth, relative to the range of its heights, or to the pitch.
+/// Largest difference of heights along x of a body that counts as smooth, relative to the range of its
+/// heights, or to the pitch.
 const SMOOTH: f64 = 1e-9;
 
 /// Drag over load that is the rounding of 0.
@@ -26,9 +27,9 @@ pub enum MovingBody {
 }
 
 impl MovingBody {
-    /// Returns the body of these heights, lower one first, through which a steady contact moves: one whose heights do not change along
-    /// x. If neither changes, it is the one that `creeps`, or the lower one. The other body stands still in the contact, and has its
-    /// relaxed modulus.
+    /// Returns the body of these heights, lower one first, through which a steady contact moves: one whose
+    /// heights do not change along x. If neither changes, it is the one that `creeps`, or the lower one. The
+    /// other body stands still in the contact, and has its relaxed modulus.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the heights of both bodies change along x.
@@ -58,7 +59,8 @@ impl Pair {
     /// Returns the operator of the pair that slides steadily at a `speed`, as the contact sees it.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] without viscoelastic bodies, and the errors of [`Pair::moving_body`] and of [`SteadySliding::new`].
+    /// [`Error::Unsupported`] without viscoelastic bodies, and the errors of [`Pair::moving_body`] and of
+    /// [`SteadySliding::new`].
     pub fn sliding_steadily(&self, boundary: Boundary, speed: MetrePerSecond) -> Result<SteadySliding> {
         self.check_creep()?;
         let creeps =
@@ -80,7 +82,8 @@ fn is_smooth_along_x(heights: &Field, pitch: [Metre; 2]) -> bool {
 }
 
 impl LoadedContact {
-    /// Solves the steady contact of a `pair` over the initial `gap`, near the pressure `start`, if one is known.
+    /// Solves the steady contact of a `pair` over the initial `gap`, near the pressure `start`, if one is
+    /// known.
     #[expect(clippy::too_many_arguments, reason = "the contact, what is asked of it, and who looks on")]
     pub(super) fn steady(
         pair: &Pair,

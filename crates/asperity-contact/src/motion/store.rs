@@ -7,7 +7,8 @@ use crate::grid::Field;
 use crate::motion::law::Sums;
 use crate::motion::pair::Pair;
 
-/// Everything that the next step of a course depends on. A course that is resumed from it continues with the same bits.
+/// Everything that the next step of a course depends on. A course that is resumed from it continues with the
+/// same bits.
 pub trait CourseState: Any {
     /// Keeps the state.
     fn store(&self, to: &mut dyn StateWriter);
@@ -30,7 +31,8 @@ pub trait StateWriter {
     /// Keeps the components of a vector in the plane.
     fn vector(&mut self, name: &str, value: [f64; 2]);
 
-    /// Keeps two bodies: their heights, their hardness if it is a map, and the state that laws store with them.
+    /// Keeps two bodies: their heights, their hardness if it is a map, and the state that laws store with
+    /// them.
     fn bodies(&mut self, pair: &Pair);
 }
 

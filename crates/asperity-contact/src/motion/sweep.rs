@@ -36,17 +36,18 @@ pub struct Point {
 pub struct SweepState {
     /// The finished points.
     pub records: Vec<SweepRecord>,
-    /// Pressure from which the next point starts, Pa; once all are finished, that from which the last one started, so that it can be solved
-    /// again. `None` where points start anew.
+    /// Pressure from which the next point starts, Pa; once all are finished, that from which the last one
+    /// started, so that it can be solved again. `None` where points start anew.
     pub start: Option<Field>,
 }
 
-/// Presses a pair at full overlap at each of the `points`. Returns the records of all points, and the contact of the last.
-/// Points that are `done` are not solved again, except the last.
+/// Presses a pair at full overlap at each of the `points`. Returns the records of all points, and the contact
+/// of the last. Points that are `done` are not solved again, except the last.
 ///
-/// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of [`crate::motion::press`],
-/// whatever the other points are. A start from the pressures of another load costs more convolutions than one from coarser grids, if the
-/// loads differ by a factor of 1.5 or more. Steady sliding of viscoelastic bodies starts from the pressures at the speed before.
+/// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of
+/// [`crate::motion::press`], whatever the other points are. A start from the pressures of another load costs
+/// more convolutions than one from coarser grids, if the loads differ by a factor of 1.5 or more. Steady
+/// sliding of viscoelastic bodies starts from the pressures at the speed before.
 ///
 /// # Errors
 /// [`Error::AtPoint`] with the error of [`crate::solver::solve_normal`] or [`crate::solver::solve_rolling`],
@@ -77,8 +78,8 @@ pub struct YieldingBodies<'a> {
     pub plastic: PlasticParams,
 }
 
-/// Does a [`sweep`] of elasto-plastic bodies without friction. Each point has the bits of [`press_elasto_plastic`] in one stage, whose load
-/// stays.
+/// Does a [`sweep`] of elasto-plastic bodies without friction. Each point has the bits of
+/// [`press_elasto_plastic`] in one stage, whose load stays.
 ///
 /// # Errors
 /// The errors of [`sweep`] and of [`press_elasto_plastic`].

@@ -1,4 +1,5 @@
-//! Solution of all positions of a pass as one problem, with the approach as the multiplier of their mean load.
+//! Solution of all positions of a pass as one problem, with the approach as the multiplier of their mean
+//! load.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -22,16 +23,16 @@ const MAX_CELLS: usize = 40_000_000;
 /// Memory per cell while all positions are stored at once, bytes.
 const BYTES_PER_CELL: f64 = 60.0;
 
-/// Upper bound of the residual η at which the approach is known well enough. From there on the positions are solved one by
-/// one, each with its own number of iterations.
+/// Upper bound of the residual η at which the approach is known well enough. From there on the positions are
+/// solved one by one, each with its own number of iterations.
 const MAX_RESIDUAL: f64 = 3e-2;
-/// The residual for a relative accuracy of the mean load. At the approach found with a residual η, the error of the load is
-/// below 10⁻³ η (measured: 10⁻⁵ to 7·10⁻⁴ η).
+/// The residual for a relative accuracy of the mean load. At the approach found with a residual η, the error
+/// of the load is below 10⁻³ η (measured: 10⁻⁵ to 7·10⁻⁴ η).
 const RESIDUAL_PER_ACCURACY: f64 = 300.0;
 
-/// Returns the memory, bytes, to solve all positions of a pass together, each with `columns` columns. `None` if they are
-/// not solved together: they are too many, the user chose a method, no mean load is prescribed, or the geometry changes
-/// from one position to the next.
+/// Returns the memory, bytes, to solve all positions of a pass together, each with `columns` columns. `None`
+/// if they are not solved together: they are too many, the user chose a method, no mean load is prescribed,
+/// or the geometry changes from one position to the next.
 pub fn memory_together(
     motion: &Motion,
     method: Method,
@@ -46,13 +47,14 @@ pub fn memory_together(
         .then_some(BYTES_PER_CELL * cells as f64)
 }
 
-/// Fraction of the first residual below which the iteration goes even from a good start. After a change of the geometry,
-/// the errors of such a start all have the same sign, and so does that of its approach.
+/// Fraction of the first residual below which the iteration goes even from a good start. After a change of
+/// the geometry, the errors of such a start all have the same sign, and so does that of its approach.
 const MIN_PROGRESS: f64 = 0.1;
 
 impl Solver<'_> {
-    /// Solves all positions at the common approach at which their mean load is `load` to the relative `accuracy`. It starts
-    /// from the pressures of `earlier` contacts at the same positions, if there are any.
+    /// Solves all positions at the common approach at which their mean load is `load` to the relative
+    /// `accuracy`. It starts from the pressures of `earlier` contacts at the same positions, if there are
+    /// any.
     ///
     /// # Errors
     /// [`Error::NotConverged`], [`Error::Interrupted`].

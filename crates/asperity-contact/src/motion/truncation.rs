@@ -4,9 +4,10 @@ use crate::grid::Field;
 use crate::motion::law::{ContactCells, Law};
 use crate::motion::pair::Pair;
 
-/// Truncation of the surfaces by perfectly plastic deformation. Each cell of both bodies is lowered by its share of the
-/// largest plastic interference during a pass on frozen bodies. The mean over the positions, instead of the largest, would
-/// account for only a few per cent of it. Extrapolation over passes does not repeat it.
+/// Truncation of the surfaces by perfectly plastic deformation. Each cell of both bodies is lowered by its
+/// share of the largest plastic interference during a pass on frozen bodies. The mean over the positions,
+/// instead of the largest, would account for only a few per cent of it. Extrapolation over passes does not
+/// repeat it.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Truncation;
 

@@ -71,8 +71,8 @@ impl Volumes {
         self.states = volumes.into_iter().map(|volume| volume.state).collect();
     }
 
-    /// Moves the plastic strain of these `volumes` up where the depth `worn` of the material above it has gone, and the surfaces of a `pair` with
-    /// its displacement.
+    /// Moves the plastic strain of these `volumes` up where the depth `worn` of the material above it has
+    /// gone, and the surfaces of a `pair` with its displacement.
     pub(super) fn uncover(&self, volumes: &mut Vec<PlasticVolume>, pair: &mut Pair, worn: &[Field; 2]) {
         if volumes.iter().all(|volume| worn[volume.body].iter().all(|depth| *depth <= 0.0)) {
             return;
@@ -100,7 +100,8 @@ impl Volumes {
 }
 
 impl Solver<'_> {
-    /// Solves the positions of a pass of the elasto-plastic bodies of a `pair`, one after another, and removes the load.
+    /// Solves the positions of a pass of the elasto-plastic bodies of a `pair`, one after another, and
+    /// removes the load.
     pub(super) fn solve_elasto_plastic(
         &self,
         volumes: &Volumes,

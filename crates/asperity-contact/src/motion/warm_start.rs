@@ -1,7 +1,8 @@
 //! Warm start that a pass leaves to the next, besides the bodies.
 //!
-//! Removal changes the pressures at a position by about the same amount in each pass. A pass begins with the extrapolated
-//! pressures: the change of the last pass, scaled by how well that pass repeated the change before it.
+//! Removal changes the pressures at a position by about the same amount in each pass. A pass begins with the
+//! extrapolated pressures: the change of the last pass, scaled by how well that pass repeated the change
+//! before it.
 
 use crate::error::Result;
 use crate::motion::contact::Contact;
@@ -12,15 +13,15 @@ use crate::motion::store::{CourseState, StateReader, StateWriter, restore_if, re
 use crate::solver::Stats;
 use crate::units::{Metre, Pascal};
 
-/// State in which the next pass begins. Solutions are exact only within their tolerances and depend on the start. A motion
-/// therefore continues with the same bits only from the same start.
+/// State in which the next pass begins. Solutions are exact only within their tolerances and depend on the
+/// start. A motion therefore continues with the same bits only from the same start.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct WarmStart {
-    /// Initial guess of the search for the approach; `None` if no mean load is prescribed, or if the next pass has other
-    /// positions or bodies.
+    /// Initial guess of the search for the approach; `None` if no mean load is prescribed, or if the next
+    /// pass has other positions or bodies.
     pub guess: Option<Guess>,
-    /// The loaded cells at each solved position of the last pass; empty before the first pass, or if the next pass has
-    /// other positions.
+    /// The loaded cells at each solved position of the last pass; empty before the first pass, or if the next
+    /// pass has other positions.
     pub positions: Vec<LoadedCells>,
     /// The last extrapolation; `None` before the first pass, or if nothing is removed.
     pub extrapolation: Option<LastExtrapolation>,
@@ -35,8 +36,8 @@ pub struct WarmStart {
 pub struct Guess {
     /// The approach δ.
     pub approach: Metre,
-    /// Relative change d ln W/dδ of the mean load with the approach, 1/m. The load of rough bodies grows about
-    /// exponentially with the approach.
+    /// Relative change d ln W/dδ of the mean load with the approach, 1/m. The load of rough bodies grows
+    /// about exponentially with the approach.
     pub slope: f64,
 }
 
@@ -47,11 +48,11 @@ pub struct LoadedCells {
     pub approach: Metre,
     /// Flat cells with p > 0, ascending, and their pressure, Pa.
     pub pressure: Vec<(u32, Pascal)>,
-    /// Change of the pressure of each of these cells since the computed pass before, in Pa per pass of the motion; 0 for
-    /// cells without pressure before, and for all cells after the first pass.
+    /// Change of the pressure of each of these cells since the computed pass before, in Pa per pass of the
+    /// motion; 0 for cells without pressure before, and for all cells after the first pass.
     pub change: Vec<Pascal>,
-    /// Fraction of this change that the next pass is expected to repeat, 0 … 1: the fraction of the change before it that
-    /// this pass has repeated.
+    /// Fraction of this change that the next pass is expected to repeat, 0 … 1: the fraction of the change
+    /// before it that this pass has repeated.
     pub persistence: f64,
 }
 
@@ -218,8 +219,8 @@ impl LoadedCells {
 mod tests {
     use super::*;
 
-    /// Extrapolates after passes with these pressures, each this many passes of the motion after the one before; the last
-    /// number is that of the passes to come.
+    /// Extrapolates after passes with these pressures, each this many passes of the motion after the one
+    /// before; the last number is that of the passes to come.
     fn predicted(states: &[(&[(u32, f64)], f64)], to_come: f64) -> Vec<(u32, f64)> {
         let mut last = None;
         for (pressure, passes) in states {

@@ -22,8 +22,8 @@ pub struct Progress {
     pub positions: usize,
     /// Load at the position solved last.
     pub load: Newton,
-    /// Progress, 0 to 1, in the logarithm of the residual, if all positions are solved together or if a static contact is
-    /// being solved.
+    /// Progress, 0 to 1, in the logarithm of the residual, if all positions are solved together or if a
+    /// static contact is being solved.
     pub together: Option<f64>,
 }
 
@@ -46,23 +46,26 @@ pub trait Watch: Sync {
     /// Called while a static contact is being solved; [`Progress::together`] is its progress.
     fn solving(&self, _: &Progress) {}
 
-    /// Called before [`Watch::pass`] with the numbers that capabilities show in its row, not for passes before an interruption.
+    /// Called before [`Watch::pass`] with the numbers that capabilities show in its row, not for passes
+    /// before an interruption.
     fn cells(&self, _: &[StepCell]) {}
 
     /// Called after each pass in turn, including those before an interruption when a motion resumes.
     fn pass(&self, _: &PassRecord) {}
 
-    /// Called after each point of a sweep in turn, including those before an interruption when a sweep resumes.
+    /// Called after each point of a sweep in turn, including those before an interruption when a sweep
+    /// resumes.
     fn point(&self, _: &SweepRecord) {}
 
-    /// Called after each update of a contact that slides in place in turn, including those before an interruption when it
-    /// resumes.
+    /// Called after each update of a contact that slides in place in turn, including those before an
+    /// interruption when it resumes.
     fn update(&self, _: &UpdateRecord) {}
 
     /// Called with each warning about a result as soon as it is known.
     fn warning(&self, _: &str) {}
 
-    /// Whether to stop. The computation then fails with [`crate::Error::Interrupted`] at the next convolution.
+    /// Whether to stop. The computation then fails with [`crate::Error::Interrupted`] at the next
+    /// convolution.
     fn stop(&self) -> bool;
 }
 

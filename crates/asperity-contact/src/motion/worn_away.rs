@@ -31,8 +31,8 @@ pub(super) fn check_cells(pair: &Pair, laws: &[Box<dyn Law>]) -> Result<()> {
     check(pair, |body| laws.iter().map(|law| law.deepest(pair)[body]).fold(0.0, f64::max))
 }
 
-/// Checks the bodies after losses of these depths, by law, with their mean over the cells. The mean follows from the load and the
-/// distance, however the pressures change.
+/// Checks the bodies after losses of these depths, by law, with their mean over the cells. The mean follows
+/// from the load and the distance, however the pressures change.
 ///
 /// # Errors
 /// [`Error::WornAway`].

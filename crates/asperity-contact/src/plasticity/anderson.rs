@@ -11,8 +11,8 @@ const NEGLIGIBLE: f64 = 1e-10;
 
 /// History of a fixed-point iteration y ↦ y + f(y).
 ///
-/// The next y is y + f − Σ γ (Δy + Δf). The γ minimise the mean square of f − Σ γ Δf over the entries that count. Anderson,
-/// J. ACM 12, 547 (1965).
+/// The next y is y + f − Σ γ (Δy + Δf). The γ minimise the mean square of f − Σ γ Δf over the entries that
+/// count. Anderson, J. ACM 12, 547 (1965).
 #[derive(Debug, Default)]
 pub(super) struct Anderson {
     last: Option<(Vec<f64>, Vec<f64>)>,

@@ -9,9 +9,9 @@ use crate::stress::Component;
 use crate::subsurface::LayeredStress;
 use crate::units::Metre;
 
-/// Computes the residual stress of a plastic `strain`, `[layer, component, ix, iy]`, in the `layers` of a body on a `grid`.
-/// It is evaluated from the surface down to a depth `to`, which may lie below the layers, under a contact placed on the
-/// body. Cost: one operator application with as many layers.
+/// Computes the residual stress of a plastic `strain`, `[layer, component, ix, iy]`, in the `layers` of a
+/// body on a `grid`. It is evaluated from the surface down to a depth `to`, which may lie below the layers,
+/// under a contact placed on the body. Cost: one operator application with as many layers.
 ///
 /// # Errors
 /// The errors of [`Volume::new`].

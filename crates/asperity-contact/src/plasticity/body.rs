@@ -33,7 +33,8 @@ pub enum Action {
 pub struct SurfaceDisplacement {
     /// Component into the body, m.
     pub inward: Field,
-    /// Components along +x and +y, m; `None` if the surface is not [followed](PlasticBody::followed_along) tangentially.
+    /// Components along +x and +y, m; `None` if the surface is not [followed](PlasticBody::followed_along)
+    /// tangentially.
     pub along: Option<[Field; 2]>,
 }
 
@@ -128,8 +129,8 @@ impl PlasticBody {
         &self.state
     }
 
-    /// Restores a plastic `state` of the unloaded body. The result has the same bits for any history. Cost: one operator
-    /// application.
+    /// Restores a plastic `state` of the unloaded body. The result has the same bits for any history. Cost:
+    /// one operator application.
     ///
     /// # Panics
     /// If the state belongs to another volume or law.
@@ -223,7 +224,8 @@ impl PlasticBody {
         self.displacement.clone()
     }
 
-    /// Computes the predictor without further flow under an `action`. Returns whether that took an operator application.
+    /// Computes the predictor without further flow under an `action`. Returns whether that took an operator
+    /// application.
     pub(super) fn predict_elastic(&mut self, action: &Action) -> bool {
         let product = match (self.action.as_ref(), action) {
             (None, Action::Tractions(now)) if self.increment.is_empty() && self.is_virgin() => {
@@ -264,8 +266,8 @@ impl PlasticBody {
         !self.increment.is_empty()
     }
 
-    /// Adds the strain of the last increment once more, shifted with the load by this number of cells. Returns whether
-    /// there was any.
+    /// Adds the strain of the last increment once more, shifted with the load by this number of cells.
+    /// Returns whether there was any.
     pub(super) fn guess(&mut self, shift: [isize; 2]) -> bool {
         let [nx, ny] = self.volume.grid().shape;
         let wraps = self.volume.boundary().leaves_mean_free();
@@ -320,7 +322,8 @@ impl PlasticBody {
         });
     }
 
-    /// Computes the strain from the predictor. Returns its distance from `start`, as a stress over the yield stress.
+    /// Computes the strain from the predictor. Returns its distance from `start`, as a stress over the yield
+    /// stress.
     pub(super) fn flow(&mut self, start: Start) -> f64 {
         let stiffness = self.stiffness();
         let cells = self.cells();
@@ -353,8 +356,8 @@ impl PlasticBody {
         stiffness * moved.into_iter().fold(0.0, f64::max) / yields
     }
 
-    /// Return-mapping residual: the largest difference between the predictor and the one from the trial stress and strain,
-    /// over the yield stress.
+    /// Return-mapping residual: the largest difference between the predictor and the one from the trial
+    /// stress and strain, over the yield stress.
     pub(super) fn mismatch(&self) -> f64 {
         let stiffness = self.stiffness();
         let Trial { predictor, strain, stress, .. } = &self.trial;

@@ -11,11 +11,12 @@ use crate::solver::{
 use crate::subsurface::Tractions;
 use crate::units::{Joule, Metre, Newton};
 
-/// A contact of two bodies, one or both elasto-plastic, that is loaded and unloaded in increments. The bodies may move over
-/// each other between increments.
+/// A contact of two bodies, one or both elasto-plastic, that is loaded and unloaded in increments. The bodies
+/// may move over each other between increments.
 ///
-/// The gap is that of the undeformed bodies. Plastic strain opens it by r, g = h − δ + C p + r₁ + r₂, and displaces the
-/// surfaces tangentially. A contact covers a part of each body, or all of it. Plastic strain stays with the material.
+/// The gap is that of the undeformed bodies. Plastic strain opens it by r, g = h − δ + C p + r₁ + r₂, and
+/// displaces the surfaces tangentially. A contact covers a part of each body, or all of it. Plastic strain
+/// stays with the material.
 pub struct PlasticContact {
     facing: RelativePosition,
     bodies: Vec<PlasticBody>,
@@ -29,7 +30,8 @@ pub struct PlasticContact {
     /// Pressure of the last increment; 0 before the first, and after separation.
     pressure: Field,
     equilibrium: Option<Equilibrium>,
-    /// Relative tangential displacement of the surfaces by plastic strain after the last increment, if it is followed.
+    /// Relative tangential displacement of the surfaces by plastic strain after the last increment, if it is
+    /// followed.
     along: Option<[Field; 2]>,
 }
 
@@ -49,8 +51,8 @@ impl PlasticContact {
     /// Creates a contact of bodies that do not touch yet, from the elasto-plastic ones: lower, upper.
     ///
     /// # Panics
-    /// If neither body is elasto-plastic, if the grid of the gap differs from that of the solver, or if the contact
-    /// reaches beyond a body.
+    /// If neither body is elasto-plastic, if the grid of the gap differs from that of the solver, or if the
+    /// contact reaches beyond a body.
     pub fn new(
         facing: RelativePosition,
         bodies: [Option<PlasticBody>; 2],
@@ -80,8 +82,9 @@ impl PlasticContact {
         contact
     }
 
-    /// Moves the bodies to another position for the next increment. The load moves over the lower and over the upper body
-    /// by whole cells, `shifts`. Between the positions the bodies slide freely; a history of stick belongs to one position.
+    /// Moves the bodies to another position for the next increment. The load moves over the lower and over
+    /// the upper body by whole cells, `shifts`. Between the positions the bodies slide freely; a history of
+    /// stick belongs to one position.
     ///
     /// # Panics
     /// If the grid of the gap differs from that of the solver, or if the contact reaches beyond a body.
@@ -116,8 +119,8 @@ impl PlasticContact {
         }
     }
 
-    /// Separates the bodies, and restores the plastic `states` of the elasto-plastic ones. The result has the same bits for
-    /// any history. Cost: one operator application each.
+    /// Separates the bodies, and restores the plastic `states` of the elasto-plastic ones. The result has the
+    /// same bits for any history. Cost: one operator application each.
     ///
     /// # Panics
     /// If the number of states differs from that of the bodies, or if a state belongs to another body.
@@ -133,15 +136,18 @@ impl PlasticContact {
     /// Applies a load (0 separates the bodies) or an approach in one increment, without tangential loading.
     ///
     /// # Errors
-    /// [`Error::AtIncrement`] with its cause: [`Error::PlasticNotConverged`], or an error of [`crate::solver::solve_normal`].
+    /// [`Error::AtIncrement`] with its cause: [`Error::PlasticNotConverged`], or an error of
+    /// [`crate::solver::solve_normal`].
     pub fn go_to(&mut self, control: Control) -> Result<Increment> {
         self.load(Loading { normal: control, tangential: Tangential::Force([0.0; 2]) }, &())
     }
 
-    /// Applies a loading in one increment under a watch. Tangential loading counts only for surfaces that may stick.
+    /// Applies a loading in one increment under a watch. Tangential loading counts only for surfaces that may
+    /// stick.
     ///
     /// # Errors
-    /// The errors of [`PlasticContact::go_to`] and of [`crate::solver::solve_frictional`]; [`Error::Interrupted`].
+    /// The errors of [`PlasticContact::go_to`] and of [`crate::solver::solve_frictional`];
+    /// [`Error::Interrupted`].
     pub fn load(&mut self, loading: Loading, watch: &dyn Watch) -> Result<Increment> {
         self.increments += 1;
         let sticks = self.facing.solver.sticks();
@@ -194,8 +200,8 @@ impl PlasticContact {
         self.solution().map(|solution| solution.approach)
     }
 
-    /// The elastic contact of the bodies with their plastic displacement; `None` before the first increment, and after
-    /// separation or a move.
+    /// The elastic contact of the bodies with their plastic displacement; `None` before the first increment,
+    /// and after separation or a move.
     pub fn equilibrium(&self) -> Option<&Equilibrium> {
         self.equilibrium.as_ref()
     }
@@ -238,8 +244,9 @@ impl PlasticContact {
         self.facing.solver.sticks()
     }
 
-    /// Moves the plastic strain of each body up where the depth `worn` of the material above it has gone, on the cells of the lower and of the
-    /// upper body. The contact stays as it is for the next increment, without the tangential displacement of the surfaces by the strain that has gone.
+    /// Moves the plastic strain of each body up where the depth `worn` of the material above it has gone, on
+    /// the cells of the lower and of the upper body. The contact stays as it is for the next increment,
+    /// without the tangential displacement of the surfaces by the strain that has gone.
     ///
     /// # Panics
     /// If a shape differs from that of its body.
@@ -266,7 +273,8 @@ impl PlasticContact {
         &self.sides
     }
 
-    /// Relative normal displacement of the surfaces, C p + r, m. Under a periodic boundary the mean of C p is zero.
+    /// Relative normal displacement of the surfaces, C p + r, m. Under a periodic boundary the mean of C p is
+    /// zero.
     pub fn displacement(&self) -> Field {
         let zeros = || Field::zeros(self.pressure.raw_dim());
         self.with_residual(self.solution().map_or_else(zeros, |solution| solution.displacement.clone()))
@@ -294,7 +302,8 @@ struct ElasticStep<'a> {
     loading: Loading,
     params: &'a Params,
     watch: &'a dyn Watch,
-    /// The last increment of surfaces that may stick, with the relative tangential displacement of the surfaces by plastic strain after it.
+    /// The last increment of surfaces that may stick, with the relative tangential displacement of the
+    /// surfaces by plastic strain after it.
     before: Option<&'a Equilibrium>,
     along_before: Option<[Field; 2]>,
     /// The last pressure, as the start of the next solve.
@@ -346,8 +355,8 @@ impl increment::Loading for ElasticStep<'_> {
 }
 
 impl ElasticStep<'_> {
-    /// Presses together surfaces with a `gap` and a relative tangential displacement `along` by plastic strain. Returns the
-    /// shear on the lower one.
+    /// Presses together surfaces with a `gap` and a relative tangential displacement `along` by plastic
+    /// strain. Returns the shear on the lower one.
     fn press(&mut self, gap: &Field, along: Option<&[Field; 2]>) -> Result<Option<[Field; 2]>> {
         let (control, params, watch) = (self.loading.normal, self.params, self.watch);
         params.device.only_processor("a device does not solve elasto-plastic bodies")?;

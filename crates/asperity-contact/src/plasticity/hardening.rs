@@ -3,8 +3,8 @@
 use crate::error::{Result, check, check_in};
 use crate::units::{Dimension, Pascal};
 
-/// Yield stress in tension as a function of the accumulated plastic strain: linear between points, then constant or with a
-/// given slope.
+/// Yield stress in tension as a function of the accumulated plastic strain: linear between points, then
+/// constant or with a given slope.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hardening {
     /// Accumulated plastic strain, increasing from 0; yield stress, not decreasing.
@@ -22,10 +22,12 @@ impl Hardening {
         Self::linear(yield_stress, 0.0)
     }
 
-    /// Creates a yield stress with the slope `modulus` dσY/dp̄ ≥ 0, which is E·Et/(E − Et) for a tangent modulus Et.
+    /// Creates a yield stress with the slope `modulus` dσY/dp̄ ≥ 0, which is E·Et/(E − Et) for a tangent
+    /// modulus Et.
     ///
     /// # Errors
-    /// [`crate::Error::OutOfRange`] if the yield stress is not positive, the modulus negative, or one of them not finite.
+    /// [`crate::Error::OutOfRange`] if the yield stress is not positive, the modulus negative, or one of them
+    /// not finite.
     pub fn linear(yield_stress: Pascal, modulus: Pascal) -> Result<Self> {
         check_yield_stress(yield_stress)?;
         let good = modulus >= 0.0 && modulus.is_finite();
@@ -33,11 +35,12 @@ impl Hardening {
         Ok(Self { points: vec![(0.0, yield_stress)], slope: modulus })
     }
 
-    /// Creates a measured `curve` of accumulated plastic strain, from 0, and stress; constant beyond the last point.
+    /// Creates a measured `curve` of accumulated plastic strain, from 0, and stress; constant beyond the last
+    /// point.
     ///
     /// # Errors
-    /// [`crate::Error::OutOfRange`] if there is no point, if the strain does not begin at 0 and increase, or if the stress
-    /// is not positive or decreases.
+    /// [`crate::Error::OutOfRange`] if there is no point, if the strain does not begin at 0 and increase, or
+    /// if the stress is not positive or decreases.
     pub fn curve(curve: &[(f64, Pascal)]) -> Result<Self> {
         check("points of the curve", curve.len() as f64, !curve.is_empty(), "at least one point")?;
         check(
@@ -82,8 +85,8 @@ impl Hardening {
         }
     }
 
-    /// Returns the Δp̄ ≥ 0 for which `excess` − `stiffness` Δp̄ equals the growth of the yield stress from the
-    /// `accumulated` strain: excess = ξe − σY(p̄₀) > 0.
+    /// Returns the Δp̄ ≥ 0 for which `excess` − `stiffness` Δp̄ equals the growth of the yield stress from
+    /// the `accumulated` strain: excess = ξe − σY(p̄₀) > 0.
     pub(super) fn flow(&self, accumulated: f64, excess: Pascal, stiffness: Pascal) -> f64 {
         let (mut from, mut left) = (accumulated, excess);
         loop {

@@ -1,9 +1,10 @@
 //! Correction of the residual stress of a free body for its periodic images.
 //!
-//! A free body is computed with a period of twice its size. Its images contribute 0.3 to 5 per cent of the largest residual
-//! stress. This contribution is smooth. It is computed from the strain on coarse cells, as the difference between a period
-//! of four times that and that period, and interpolated. The remaining error is at most 1/64 of it. The gather to coarse
-//! cells is the transpose of the interpolation, so that the operator stays symmetric.
+//! A free body is computed with a period of twice its size. Its images contribute 0.3 to 5 per cent of the
+//! largest residual stress. This contribution is smooth. It is computed from the strain on coarse cells, as
+//! the difference between a period of four times that and that period, and interpolated. The remaining error
+//! is at most 1/64 of it. The gather to coarse cells is the transpose of the interpolation, so that the
+//! operator stays symmetric.
 
 use std::f64::consts::PI;
 
@@ -18,8 +19,8 @@ const COARSE_CELLS: usize = 8;
 /// The long period over the period of the body.
 const LONG: usize = 4;
 
-/// Number of cells per coarse cell, of coarse cells, and of coarse cells per period, along an axis of this number of
-/// `cells`.
+/// Number of cells per coarse cell, of coarse cells, and of coarse cells per period, along an axis of this
+/// number of `cells`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coarsening {
     factor: usize,
@@ -114,7 +115,8 @@ impl Images {
         let change = |[_, ky]: [usize; 2], column: &mut [_]| {
             let along_y = smooth(ky, ny);
             for (kx, (value, x)) in column.iter_mut().zip(&along_x).enumerate() {
-                // The waves of the short period are one in LONG² of the long one, with as many times the amplitude.
+                // The waves of the short period are one in LONG² of the long one, with as many times the
+                // amplitude.
                 let both = kx % LONG == 0 && ky % LONG == 0;
                 let difference = if both { 1.0 - (LONG * LONG) as f64 } else { 1.0 };
                 *value *= x * (along_y * difference);

@@ -73,20 +73,21 @@ impl Increment {
     }
 }
 
-/// Brings elasto-plastic bodies into equilibrium under a `loading`, in one increment from their present state.
+/// Brings elasto-plastic bodies into equilibrium under a `loading`, in one increment from their present
+/// state.
 ///
-/// The loading is evaluated anew for every plastic strain, so that contact and flow do not alternate. The iterated quantity
-/// is the predictor y of the flow law: y → ε → the loading → σ → y. It uses Anderson acceleration on the cells that may
-/// flow. A step that fails is halved, then taken without acceleration. Flow is a step of backward Euler, with an error of
-/// first order in the increments.
+/// The loading is evaluated anew for every plastic strain, so that contact and flow do not alternate. The
+/// iterated quantity is the predictor y of the flow law: y → ε → the loading → σ → y. It uses Anderson
+/// acceleration on the cells that may flow. A step that fails is halved, then taken without acceleration.
+/// Flow is a step of backward Euler, with an error of first order in the increments.
 ///
-/// The iteration starts from the present strain, or from the present strain plus that of the last increment, whichever is
-/// closer to the solution. The added strain is moved with the load over each body by the whole cells of `shifts` since the
-/// last increment (0 if only the load has grown).
+/// The iteration starts from the present strain, or from the present strain plus that of the last increment,
+/// whichever is closer to the solution. The added strain is moved with the load over each body by the whole
+/// cells of `shifts` since the last increment (0 if only the load has grown).
 ///
 /// # Errors
-/// [`Error::PlasticNotConverged`]; [`Error::OutOfRange`] for an invalid tolerance; the errors of the loading. The bodies are
-/// then unchanged.
+/// [`Error::PlasticNotConverged`]; [`Error::OutOfRange`] for an invalid tolerance; the errors of the loading.
+/// The bodies are then unchanged.
 pub fn advance(
     bodies: &mut [&mut PlasticBody],
     loading: &mut dyn Loading,
@@ -156,8 +157,8 @@ fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &PlasticParams)
     }
 }
 
-/// A step has failed if its residual exceeds the smallest so far by this factor. Steps that increase it slightly are
-/// needed: without them a fully plastic contact takes half as many operator applications again.
+/// A step has failed if its residual exceeds the smallest so far by this factor. Steps that increase it
+/// slightly are needed: without them a fully plastic contact takes half as many operator applications again.
 const FAR_WORSE: f64 = 10.0;
 
 /// Origin of the present predictor.
@@ -193,7 +194,8 @@ impl Trial<'_, '_> {
         self.bodies.iter().any(|body| body.has_yielded())
     }
 
-    /// Computes the predictor of a strain that grows once more as in the last increment. Returns whether there was any.
+    /// Computes the predictor of a strain that grows once more as in the last increment. Returns whether
+    /// there was any.
     fn guess(&mut self, shifts: &[[isize; 2]], loading: &mut dyn Loading) -> Result<bool> {
         let any = self.bodies.iter_mut().zip(shifts).fold(false, |any, (body, by)| body.guess(*by) | any);
         if any {

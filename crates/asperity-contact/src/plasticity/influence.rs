@@ -19,8 +19,8 @@ use asperity_base::math::plans::Plans;
 /// - Free: the closed form of a loaded cell, at two Gauss depths per layer.
 /// - Periodic: the closed form of each harmonic, with its exact mean over the layer.
 pub(super) struct Influence {
-    /// Indexed `[ky, kx]` up to half the period, by layer and component: the real factor of iⁿ, with n the number of axes
-    /// in which the component is odd.
+    /// Indexed `[ky, kx]` up to half the period, by layer and component: the real factor of iⁿ, with n the
+    /// number of axes in which the component is odd.
     spectra: Vec<Field>,
     /// Axes in which each component is odd.
     odd: [[bool; 2]; COMPONENTS],
@@ -53,7 +53,8 @@ impl Influence {
         Self { spectra, odd: Component::ALL.map(|component| traction.odd(component)), thickness }
     }
 
-    /// Adds the stress under a `traction`, given by its column at `ky`, to the `column` of a component of a layer.
+    /// Adds the stress under a `traction`, given by its column at `ky`, to the `column` of a component of a
+    /// layer.
     pub(super) fn add(&self, [plane, ky]: [usize; 2], traction: &[Complex64], column: &mut [Complex64]) {
         let (spectrum, turn, sign) = self.at(plane, ky);
         let middle = column.len() / 2 + 1;
@@ -66,8 +67,8 @@ impl Influence {
         );
     }
 
-    /// Adds the part of a component of traceless plastic strain, given by its `column` at `ky`, to the transpose: the
-    /// displacement of the surface of the body along the traction.
+    /// Adds the part of a component of traceless plastic strain, given by its `column` at `ky`, to the
+    /// transpose: the displacement of the surface of the body along the traction.
     pub(super) fn transpose(
         &self,
         [plane, ky]: [usize; 2],

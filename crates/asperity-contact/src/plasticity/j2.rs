@@ -5,7 +5,8 @@ use super::law::{CellState, PlasticLaw, Tensor, equivalent};
 use crate::error::{Error, Result, check, check_in};
 use crate::units::{Dimension, Pascal};
 
-/// Flow along the deviator of σ − X once its von Mises equivalent reaches the yield stress, with the back stress X.
+/// Flow along the deviator of σ − X once its von Mises equivalent reaches the yield stress, with the back
+/// stress X.
 ///
 /// | hardening | law |
 /// |---|---|
@@ -13,7 +14,8 @@ use crate::units::{Dimension, Pascal};
 /// | Prager | `kinematic` M: X = ⅔ M ε |
 /// | Armstrong and Frederick | with `recovery` γ: dX = ⅔ M dε − γ X dp̄, at most M/γ |
 ///
-/// An increment is a step of backward Euler (radial return). It is exact if the direction of flow does not change.
+/// An increment is a step of backward Euler (radial return). It is exact if the direction of flow does not
+/// change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct J2 {
     hardening: Hardening,
@@ -30,7 +32,8 @@ impl J2 {
     /// Adds a back stress with the `modulus` M ≥ 0 and a `recovery` γ ≥ 0, which is 0 for Prager's law.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if one of them is negative or not finite, [`Error::Unsupported`] for a recovery without a modulus.
+    /// [`Error::OutOfRange`] if one of them is negative or not finite, [`Error::Unsupported`] for a recovery
+    /// without a modulus.
     pub fn with_back_stress(self, modulus: Pascal, recovery: f64) -> Result<Self> {
         let good = |value: f64| value >= 0.0 && value.is_finite();
         check_in(Dimension::Pressure, "kinematic", modulus, good(modulus), "a finite modulus of at least 0")?;
@@ -53,9 +56,9 @@ impl J2 {
         std::array::from_fn(|i| predictor[i] - stiffness * state.strain[i] - kept * state.back[i])
     }
 
-    /// Returns the Δp̄ that solves ξe − (3/2 stiffness + M/(1 + γ Δp̄)) Δp̄ = σY(p̄₀ + Δp̄), which is not linear with
-    /// recovery. The difference decreases everywhere by at least 3/2 stiffness, so that Newton's steps stay within the
-    /// known bounds.
+    /// Returns the Δp̄ that solves ξe − (3/2 stiffness + M/(1 + γ Δp̄)) Δp̄ = σY(p̄₀ + Δp̄), which is not
+    /// linear with recovery. The difference decreases everywhere by at least 3/2 stiffness, so that Newton's
+    /// steps stay within the known bounds.
     fn recovering(&self, predictor: &Tensor, stiffness: Pascal, state: &CellState, excess: Pascal) -> f64 {
         let excess_at = |flow: f64| {
             let driving = equivalent(&self.driving(predictor, stiffness, state, flow));
@@ -143,8 +146,8 @@ mod tests {
         (state, plus(&predictor, &times(-STIFFNESS, &state.strain)))
     }
 
-    /// Returns the total strain dev σ/2μ + ε of a cell strained plastically to p along `way`, whose equivalent is 1 as a
-    /// stress.
+    /// Returns the total strain dev σ/2μ + ε of a cell strained plastically to p along `way`, whose
+    /// equivalent is 1 as a stress.
     fn strain_for(way: &Tensor, stress: f64, plastic: f64) -> Tensor {
         times(stress / STIFFNESS + 1.5 * plastic, way)
     }
@@ -253,7 +256,8 @@ mod tests {
             assert_relative_eq!(equivalent(&found), stress, max_relative = 1e-12);
             assert_relative_eq!(equivalent(&state.back), back, max_relative = 1e-11);
         }
-        // Many steps: X = M/γ (1 − e^−γp), and back again, −M/γ + (M/γ + X) e^−γ(p − p₁), both to first order.
+        // Many steps: X = M/γ (1 − e^−γp), and back again, −M/γ + (M/γ + X) e^−γ(p − p₁), both to first
+        // order.
         let errors = [50, 100, 200].map(|steps| {
             let law = law(0.0);
             let mut state = CellState::default();
@@ -283,8 +287,8 @@ mod tests {
 
     #[test]
     fn a_small_increment_has_the_tangent_of_the_flow_rule() {
-        // dσ = 2μ (dε − 3/2 m m:dε 2μ/(2μ·3/2 + H + M)·…): along m the fraction (H + M)/(3μ + H + M) of the stress remains,
-        // across m all of it.
+        // dσ = 2μ (dε − 3/2 m m:dε 2μ/(2μ·3/2 + H + M)·…): along m the fraction (H + M)/(3μ + H + M) of the
+        // stress remains, across m all of it.
         for (law, isotropic, kinematic) in laws() {
             let size = YIELD + (isotropic + kinematic) * 0.01;
             let start = strain_for(&TENSION, size, 0.01);

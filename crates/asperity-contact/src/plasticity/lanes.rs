@@ -4,8 +4,8 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use asperity_transforms::num_complex::Complex64;
 
-/// Amplitudes of the wave vectors (q_x, q_y) and (−q_x, q_y): real part, imaginary part, real part, imaginary part.
-/// Functions of |q| alone act on all four.
+/// Amplitudes of the wave vectors (q_x, q_y) and (−q_x, q_y): real part, imaginary part, real part, imaginary
+/// part. Functions of |q| alone act on all four.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Lanes([f64; 4]);
 

@@ -20,8 +20,9 @@ pub struct CellState {
 pub trait PlasticLaw: std::fmt::Debug + Send + Sync {
     /// Returns the state after an increment from `state`, if the cell flows.
     ///
-    /// The `predictor` is y = dev σ + `stiffness` ε, Pa, with the unknown plastic strain ε. It does not change in the
-    /// increment if the stress relaxes by the stiffness times the strain. With 2μ it is the stress of the total strain.
+    /// The `predictor` is y = dev σ + `stiffness` ε, Pa, with the unknown plastic strain ε. It does not
+    /// change in the increment if the stress relaxes by the stiffness times the strain. With 2μ it is the
+    /// stress of the total strain.
     fn flow(&self, predictor: &Tensor, stiffness: Pascal, state: &CellState) -> Option<CellState>;
 
     /// Yield stress in tension of virgin material, Pa.

@@ -3,7 +3,8 @@
 use crate::error::{Result, check, check_in};
 use crate::units::{Dimension, Metre};
 
-/// Layers parallel to the surface, from the surface down to a depth. The plastic strain of a cell is uniform in each layer.
+/// Layers parallel to the surface, from the surface down to a depth. The plastic strain of a cell is uniform
+/// in each layer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layers {
     /// Depths of their faces, from 0; one more than layers.
@@ -17,8 +18,8 @@ impl Layers {
     /// Creates `count` layers down to a `depth`, each `growth` times as thick as the one above it.
     ///
     /// # Errors
-    /// [`crate::Error::OutOfRange`] if the depth is not positive and finite, if there are none or more than 512 layers, or
-    /// if the growth is not within 1 … 2.
+    /// [`crate::Error::OutOfRange`] if the depth is not positive and finite, if there are none or more than
+    /// 512 layers, or if the growth is not within 1 … 2.
     pub fn new(depth: Metre, count: usize, growth: f64) -> Result<Self> {
         let positive = depth > 0.0 && depth.is_finite();
         check_in(Dimension::Length, "depth", depth, positive, "a finite depth above 0")?;

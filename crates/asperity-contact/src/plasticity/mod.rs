@@ -1,7 +1,8 @@
-//! Elasto-plastic bodies: plastic strain in the volume under a contact, its residual stress and surface displacement.
+//! Elasto-plastic bodies: plastic strain in the volume under a contact, its residual stress and surface
+//! displacement.
 //!
-//! A body is a half-space with [`Layers`] under its surface that may take plastic strain ε, uniform in each cell of each
-//! layer. The strain moves with the material, preserves volume and is zero outside the grid.
+//! A body is a half-space with [`Layers`] under its surface that may take plastic strain ε, uniform in each
+//! cell of each layer. The strain moves with the material, preserves volume and is zero outside the grid.
 //!
 //! ```text
 //! σ = S p + K ε                        stress in the layers
@@ -9,8 +10,8 @@
 //! g = h − δ + C p + r₁ + r₂ ≥ 0        the gap between two such bodies
 //! ```
 //!
-//! [`Volume`] implements these operators, and a [`PlasticLaw`] determines the growth of ε. Jacq, Nélias, Lormand and Girodin,
-//! J. Tribol. 124, 653 (2002); for the operators see [`Volume`].
+//! [`Volume`] implements these operators, and a [`PlasticLaw`] determines the growth of ε. Jacq, Nélias,
+//! Lormand and Girodin, J. Tribol. 124, 653 (2002); for the operators see [`Volume`].
 //!
 //! ```
 //! use asperity_contact::material::Material;
@@ -67,8 +68,8 @@ const COMPONENTS: usize = 6;
 /// Independent components of plastic strain; zz follows from volume preservation.
 const INDEPENDENT: [usize; 5] = [0, 1, 3, 4, 5];
 
-/// A symmetric tensor in each cell of each layer: `[layer, component, ix, iy]`, with the components in the order of
-/// [`crate::stress::Component::ALL`].
+/// A symmetric tensor in each cell of each layer: `[layer, component, ix, iy]`, with the components in the
+/// order of [`crate::stress::Component::ALL`].
 pub type TensorField = ndarray::Array4<f64>;
 
 /// A number in each cell of each layer: `[layer, ix, iy]`.

@@ -1,15 +1,15 @@
 //! Residual stress of plastic strain in layers, wave by wave, by an upward and a downward layer recursion.
 //!
-//! Consider the frame of a wave vector q (1 along it, 2 across, 3 = z) and a traceless eigenstress τ = 2με, distributed
-//! over all depths z′ of an infinite body. Its stress at z consists of the sums
+//! Consider the frame of a wave vector q (1 along it, 2 across, 3 = z) and a traceless eigenstress τ = 2με,
+//! distributed over all depths z′ of an infinite body. Its stress at z consists of the sums
 //!
 //! ```text
 //! e0 = (q/4) ∫ e^−ζ τ dz′     e1 = (q/4) ∫ ζ e^−ζ τ dz′     ζ = q|z − z′|
 //! o0, o1: the same with the sign of z − z′
 //! ```
 //!
-//! With k = ν/(1 − ν), a = 1 + k, the difference d = τ11 − τ33, and i τ13, i τ23 in place of τ13, τ23 so that everything is
-//! real:
+//! With k = ν/(1 − ν), a = 1 + k, the difference d = τ11 − τ33, and i τ13, i τ23 in place of τ13, τ23 so that
+//! everything is real:
 //!
 //! ```text
 //! σ11 = (k + 3) e0[11] − (3k + 1) e0[33] − a e1[d] + 4a o0[13] − 2a o1[13] + k τ33 − τ11
@@ -26,15 +26,15 @@
 //! σ11 = 2u − v     σ22 = 2νu     σ33 = v     σ13 = v − u     σ12 = t     σ23 = −t
 //! ```
 //!
-//! The part from below has the same with the signs of τ13, τ23, σ13 and σ23 reversed. Over a depth X/q without strain,
-//! v becomes e^−X (v + X u), and u and t decay by e^−X.
+//! The part from below has the same with the signs of τ13, τ23, σ13 and σ23 reversed. Over a depth X/q
+//! without strain, v becomes e^−X (v + X u), and u and t decay by e^−X.
 //!
-//! Two terms are added to those from above: the mirror image (τ13, τ23 reversed), which has the amplitudes u′, v′, t′ from
-//! below at the surface, and the pressure 2v′ that makes the surface traction-free. Together they are u = u′ − 2v′, v = −v′,
-//! t = t′.
+//! Two terms are added to those from above: the mirror image (τ13, τ23 reversed), which has the amplitudes
+//! u′, v′, t′ from below at the surface, and the pressure 2v′ that makes the surface traction-free. Together
+//! they are u = u′ − 2v′, v = −v′, t = t′.
 //!
-//! The strain is uniform in each layer, and the stress is its mean over each layer, so that the operator is symmetric. The
-//! cost is linear in the number of layers, and nothing is stored.
+//! The strain is uniform in each layer, and the stress is its mean over each layer, so that the operator is
+//! symmetric. The cost is linear in the number of layers, and nothing is stored.
 
 use super::COMPONENTS;
 use super::lanes::Lanes;
@@ -94,7 +94,8 @@ struct Decay {
 }
 
 impl Decay {
-    /// Computes the decay with absolute errors of about 1e-16, also for terms that vanish with X, from X and 1 − e^−X.
+    /// Computes the decay with absolute errors of about 1e-16, also for terms that vanish with X, from X and
+    /// 1 − e^−X.
     #[inline]
     fn over(thickness: f64, lost: f64) -> Self {
         let whole = 1.0 - lost;
@@ -109,8 +110,8 @@ impl Decay {
     }
 }
 
-/// Computes 1 − e^−x for x ≥ 0, to about 2e-16 of the result. It has no branches, so that it is computed for several
-/// numbers at a time.
+/// Computes 1 − e^−x for x ≥ 0, to about 2e-16 of the result. It has no branches, so that it is computed for
+/// several numbers at a time.
 #[inline]
 fn lost(x: f64) -> f64 {
     /// Adding this number rounds to an integer, which the last bits of the sum hold.
@@ -168,8 +169,8 @@ impl Sweep {
         }
     }
 
-    /// Replaces plastic strain by residual stress, for the waves in the bins ±`kx` and `ky`: the components of each layer.
-    /// The strain is traceless, so that its zz is not read.
+    /// Replaces plastic strain by residual stress, for the waves in the bins ±`kx` and `ky`: the components
+    /// of each layer. The strain is traceless, so that its zz is not read.
     pub(super) fn residual(
         &self,
         [kx, ky]: [usize; 2],
@@ -310,8 +311,8 @@ mod tests {
         assert_eq!(lost(0.0), 0.0);
     }
 
-    /// Stress in the frame of the wave, layer by layer: 11, 22, 33, 13, 12, 23, from τ11, τ33, τ13, τ12, τ23, by the sums
-    /// over all layers that define it.
+    /// Stress in the frame of the wave, layer by layer: 11, 22, 33, 13, 12, 23, from τ11, τ33, τ13, τ12, τ23,
+    /// by the sums over all layers that define it.
     fn direct(q: f64, nu: f64, faces: &[f64], tau: &[[Complex64; 5]]) -> Vec<[Complex64; 6]> {
         let (k, a) = (nu / (1.0 - nu), 1.0 / (1.0 - nu));
         let stress = |e0: [Complex64; 5], e1: [Complex64; 5], o0: [Complex64; 5], o1: [Complex64; 5]| {
@@ -325,7 +326,8 @@ mod tests {
                 -2.0 * o0[3] - 2.0 * e0[4],
             ]
         };
-        // Means of e^−ζ and of ζ e^−ζ over a layer, times q/4 times their integrals over another, by Gauss in many parts.
+        // Means of e^−ζ and of ζ e^−ζ over a layer, times q/4 times their integrals over another, by Gauss in
+        // many parts.
         let points = |layer: usize| {
             let (top, thickness) = (faces[layer], faces[layer + 1] - faces[layer]);
             (0..40).flat_map(move |n| {

@@ -8,11 +8,13 @@ use crate::grid::Field;
 use crate::units::Metre;
 
 impl PlasticState {
-    /// Returns the state below the new surface of a body that has lost a `depth` of its material, ≥ 0, on the same layers between `faces`.
+    /// Returns the state below the new surface of a body that has lost a `depth` of its material, ≥ 0, on the
+    /// same layers between `faces`.
     ///
-    /// The strain stays with its material, so that it comes nearer to the surface: each layer gets the mean of what lies in it now. In a layer
-    /// the strain is linear, with a slope that makes no new extremum (minmod), and below the lowest face it is 0. The error of a
-    /// smooth strain is of second order in the thickness of the layers, except at its extrema.
+    /// The strain stays with its material, so that it comes nearer to the surface: each layer gets the mean
+    /// of what lies in it now. In a layer the strain is linear, with a slope that makes no new extremum
+    /// (minmod), and below the lowest face it is 0. The error of a smooth strain is of second order in the
+    /// thickness of the layers, except at its extrema.
     #[must_use]
     pub fn uncovered(&self, faces: &[Metre], depth: &Field) -> Self {
         Self {
@@ -72,7 +74,8 @@ fn mean_in(layer: usize, column: &ArrayView1<'_, f64>, faces: &[Metre], depth: M
     sum / (to - from)
 }
 
-/// Slope of the values in a layer: the smaller one of those to its neighbours, if they have one sign, and 0 in the first and in the last layer.
+/// Slope of the values in a layer: the smaller one of those to its neighbours, if they have one sign, and 0
+/// in the first and in the last layer.
 fn slope(layer: usize, column: &ArrayView1<'_, f64>, faces: &[Metre]) -> f64 {
     if layer == 0 || layer + 1 == column.len() {
         return 0.0;

@@ -14,19 +14,19 @@ use crate::operator::Boundary;
 use crate::subsurface::Tractions;
 use crate::units::Dimension;
 
-/// The elastic half-space under a grid, in layers with plastic strain. It computes the stress of tractions and of plastic
-/// strain, and the displacement of the surface by plastic strain.
+/// The elastic half-space under a grid, in layers with plastic strain. It computes the stress of tractions
+/// and of plastic strain, and the displacement of the surface by plastic strain.
 ///
 /// ```text
 /// σ = S p + K ε      Volume::elastic, Volume::residual
 /// r = Sᵀ ε           Volume::displacement
 /// ```
 ///
-/// Plastic strain ε is traceless (εzz is never read, but computed as −εxx − εyy), uniform in each cell of each layer, a
-/// tensor strain, and zero outside the grid. Stress is the mean over each layer, at the centre of each cell. Both are
-/// indexed `[layer, component, ix, iy]`, with the components in the order of [`crate::stress::Component::ALL`]. z points
-/// into the body. The frame of the upper body is the mirror image: the same x and y, its own z, and its shear tractions
-/// reversed.
+/// Plastic strain ε is traceless (εzz is never read, but computed as −εxx − εyy), uniform in each cell of
+/// each layer, a tensor strain, and zero outside the grid. Stress is the mean over each layer, at the centre
+/// of each cell. Both are indexed `[layer, component, ix, iy]`, with the components in the order of
+/// [`crate::stress::Component::ALL`]. z points into the body. The frame of the upper body is the mirror
+/// image: the same x and y, its own z, and its shear tractions reversed.
 ///
 /// - [`Boundary::PERIODIC`]: exact for the harmonics of the grid.
 /// - [`Boundary::FREE`]: S and Sᵀ from the closed form of the cell, at two depths per layer; K from a period of twice the
@@ -45,7 +45,8 @@ pub struct Volume {
 }
 
 impl Volume {
-    /// Creates the volume under `grid` of a body with the elastic constants of `material`; its hardness is ignored.
+    /// Creates the volume under `grid` of a body with the elastic constants of `material`; its hardness is
+    /// ignored.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for a coated body, or for a boundary that is periodic along one axis alone,
@@ -140,8 +141,9 @@ impl Volume {
         stress
     }
 
-    /// Applies Sᵀ: returns the displacement of the surface along `traction` by plastic strain, m, inward for the pressure,
-    /// along +x and +y for the shears. Under a periodic boundary it includes the mean over the period.
+    /// Applies Sᵀ: returns the displacement of the surface along `traction` by plastic strain, m, inward for
+    /// the pressure, along +x and +y for the shears. Under a periodic boundary it includes the mean over the
+    /// period.
     ///
     /// # Panics
     /// If the shape of the strain differs from that of [`Volume::zeros`].

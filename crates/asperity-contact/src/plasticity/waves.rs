@@ -58,7 +58,8 @@ impl Waves {
         COMPONENTS * self.layers * self.planes.shape()[0]
     }
 
-    /// Layers from wave to wave, an odd number, so that neighbouring waves do not map to the same cache lines.
+    /// Layers from wave to wave, an odd number, so that neighbouring waves do not map to the same cache
+    /// lines.
     fn stride(&self) -> usize {
         self.layers | 1
     }
@@ -85,8 +86,8 @@ impl Waves {
         self.present.contains(&true)
     }
 
-    /// Sums over the components of the stored strain, and transforms the sum back into a `field` on the surface. `add` adds
-    /// the column of a component, by its plane and its ky, to the sum.
+    /// Sums over the components of the stored strain, and transforms the sum back into a `field` on the
+    /// surface. `add` adds the column of a component, by its plane and its ky, to the sum.
     pub(super) fn surface(
         &mut self,
         add: impl Fn([usize; 2], &[Complex64], &mut [Complex64]) + Sync,
@@ -112,9 +113,9 @@ impl Waves {
         self.surface = surface;
     }
 
-    /// Replaces the stored strain by its residual stress if `any` is set, lets `change` alter the column of each component,
-    /// by its plane and its ky, and transforms it back into `stress`. Then `finish` alters each row, by its plane and its
-    /// ix.
+    /// Replaces the stored strain by its residual stress if `any` is set, lets `change` alter the column of
+    /// each component, by its plane and its ky, and transforms it back into `stress`. Then `finish` alters
+    /// each row, by its plane and its ix.
     pub(super) fn stress(
         &mut self,
         any: bool,

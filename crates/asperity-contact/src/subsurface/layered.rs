@@ -13,8 +13,8 @@ pub struct LayeredStress {
 }
 
 impl LayeredStress {
-    /// Creates the stress with these components at the `depths`, ascending. Above the first it is extrapolated linearly,
-    /// below the last it is constant.
+    /// Creates the stress with these components at the `depths`, ascending. Above the first it is
+    /// extrapolated linearly, below the last it is constant.
     ///
     /// # Panics
     /// If there are no depths, or if their number differs from that of the planes.

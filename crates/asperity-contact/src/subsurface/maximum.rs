@@ -49,10 +49,10 @@ impl Plane {
 }
 
 impl Subsurface {
-    /// Returns the largest stresses on planes at the `depths`, ascending, and on a few more planes near the most stressed
-    /// point. Each of these is at the vertex of a parabola in depth through the known von Mises stresses. The depth is
-    /// accurate to about a hundredth of the distance between the planes. Each value is that of a cell at a depth, never
-    /// interpolated.
+    /// Returns the largest stresses on planes at the `depths`, ascending, and on a few more planes near the
+    /// most stressed point. Each of these is at the vertex of a parabola in depth through the known von Mises
+    /// stresses. The depth is accurate to about a hundredth of the distance between the planes. Each value is
+    /// that of a cell at a depth, never interpolated.
     ///
     /// # Panics
     /// If there are no depths.
@@ -79,15 +79,16 @@ impl Subsurface {
     }
 }
 
-/// Returns the vertex of the parabola through three points [depth, stress], the middle one the highest; `None` if it is
-/// the middle one.
+/// Returns the vertex of the parabola through three points [depth, stress], the middle one the highest;
+/// `None` if it is the middle one.
 fn vertex([[above, a], [middle, m], [below, b]]: [[f64; 2]; 3]) -> Option<Metre> {
     let (up, down, rise, fall) = (middle - above, below - middle, m - a, m - b);
     let shift = 0.5 * (down * down * rise - up * up * fall) / (down * rise + up * fall);
     (shift.is_finite() && shift != 0.0).then_some(middle + shift)
 }
 
-/// Returns the planes beside the most stressed one after adding `plane`; `most` is whether that is now the most stressed.
+/// Returns the planes beside the most stressed one after adding `plane`; `most` is whether that is now the
+/// most stressed.
 fn narrowed([above, middle, below]: [Plane; 3], plane: Plane, most: bool) -> [Plane; 3] {
     match (plane.depth < middle.depth, most) {
         (true, true) => [above, plane, middle],

@@ -1,8 +1,8 @@
 //! Stress under the surface of a body, plane by plane.
 //!
-//! z points into the body, and stress is positive in tension. A [`Subsurface`] stores the transforms of the tractions on
-//! the surface. [`Subsurface::plane`] returns the stress at one depth, [`Subsurface::maximum`] the largest over many
-//! depths.
+//! z points into the body, and stress is positive in tension. A [`Subsurface`] stores the transforms of the
+//! tractions on the surface. [`Subsurface::plane`] returns the stress at one depth, [`Subsurface::maximum`]
+//! the largest over many depths.
 //!
 //! ```
 //! use asperity_contact::reference::HertzSphere;
@@ -57,8 +57,8 @@ impl Tractions {
         Self { pressure, shear: [None, None] }
     }
 
-    /// Converts tractions on the lower body to those on the upper one: the same pressure, the reversed shear. The upper
-    /// body's z also points into the body, so that its stresses are those of the mirror image.
+    /// Converts tractions on the lower body to those on the upper one: the same pressure, the reversed shear.
+    /// The upper body's z also points into the body, so that its stresses are those of the mirror image.
     pub fn on_upper(self) -> Self {
         Self { shear: self.shear.map(|shear| shear.map(|q| -q)), ..self }
     }
@@ -139,8 +139,8 @@ impl Subsurface {
         Plane { depth, stress }
     }
 
-    /// Applies `look` to the plane at each of the `depths` in parallel, with one plane per thread. Returns the results in
-    /// order.
+    /// Applies `look` to the plane at each of the `depths` in parallel, with one plane per thread. Returns
+    /// the results in order.
     pub fn planes<T: Send>(&self, depths: &[Metre], look: impl Fn(Plane) -> T + Sync) -> Vec<T> {
         parallel::tasks(depths, |&depth| look(self.plane(depth)))
     }
@@ -165,9 +165,9 @@ impl Subsurface {
         self.fft.inverse_leading(&sum, self.grid.shape)
     }
 
-    /// Returns the transform of the influence of two tractions, one with a real transform in the real part, one with an
-    /// imaginary transform in the imaginary part. The influence of the first is even in both directions or odd in both,
-    /// that of the second odd in one.
+    /// Returns the transform of the influence of two tractions, one with a real transform in the real part,
+    /// one with an imaginary transform in the imaginary part. The influence of the first is even in both
+    /// directions or odd in both, that of the second odd in one.
     fn symbol(&self, component: Component, pair: [Option<Traction>; 2], depth: Metre) -> Spectrum {
         let shape @ [nx, ny] = self.fft.shape();
         if !self.boundary.leaves_mean_free() {
@@ -190,7 +190,8 @@ impl Subsurface {
         Spectrum::from_shape_fn([nx, self.fft.half()], |(k, l)| {
             let q =
                 [angular_frequency(k, nx, self.grid.pitch[0]), angular_frequency(l, ny, self.grid.pitch[1])];
-            // A wave that alternates from cell to cell runs half in each direction, so that its odd part cancels.
+            // A wave that alternates from cell to cell runs half in each direction, so that its odd part
+            // cancels.
             let alternates = [2 * k == nx, 2 * l == ny];
             let part = |traction: Option<Traction>| match traction {
                 Some(traction) if !cancels(alternates, traction.odd(component)) => {
@@ -214,7 +215,8 @@ struct Repeated<'g> {
 }
 
 impl Repeated<'_> {
-    /// Adds the influence of one cell and its images at all offsets, those to negative offsets stored at the end.
+    /// Adds the influence of one cell and its images at all offsets, those to negative offsets stored at the
+    /// end.
     ///
     /// Beyond the periods that are summed, the images are a strip without end less the strip that is summed.
     fn add(
@@ -272,7 +274,8 @@ fn cancels(alternates: [bool; 2], odd: [bool; 2]) -> bool {
     (0..2).any(|axis| alternates[axis] && odd[axis])
 }
 
-/// Adds a table of offsets from 0, and its mirror images at the negative offsets, which are stored at the end.
+/// Adds a table of offsets from 0, and its mirror images at the negative offsets, which are stored at the
+/// end.
 fn add_folded(influence: &mut Field, table: &Field, odd: [bool; 2]) {
     let [sign_x, sign_y] = odd.map(|odd| if odd { -1.0 } else { 1.0 });
     let (rows, across) = (influence.nrows(), influence.ncols());
@@ -395,8 +398,8 @@ mod tests {
     #[test]
     fn what_balances_itself_is_the_same_on_a_free_and_on_a_wide_periodic_body() {
         let grid = Grid::new([64, 64], [1.0, 1.0]).unwrap();
-        // Without force and without moments of the first three orders, the effect of the other periods is of order 1/r⁶.
-        // Steps in place of waves differ by (qΔx)²/24.
+        // Without force and without moments of the first three orders, the effect of the other periods is of
+        // order 1/r⁶. Steps in place of waves differ by (qΔx)²/24.
         let bell = Field::from_shape_fn(grid.shape, |(i, j)| {
             let [x, y] = [grid.centre(0, i) - 30.0, grid.centre(1, j) - 33.0].map(|t| t / 5.0);
             (1.0 - x * x) * (1.0 - y * y) * (-0.5 * (x * x + y * y)).exp()
@@ -447,7 +450,8 @@ mod tests {
         }
     }
 
-    /// Stress at `(x, z)` under the uniform pressure 1 on |x| < a, endless along y: Johnson, *Contact mechanics*, 2.5.
+    /// Stress at `(x, z)` under the uniform pressure 1 on |x| < a, endless along y: Johnson, *Contact
+    /// mechanics*, 2.5.
     fn under_a_strip(x: f64, z: f64, a: f64, poisson: f64) -> [f64; 6] {
         let [first, second] = [z.atan2(x - a), z.atan2(x + a)];
         let [angle, difference] = [2.0 * (first - second), (2.0 * first).sin() - (2.0 * second).sin()];
@@ -511,7 +515,8 @@ mod tests {
             let (one, all) = (line.plane(depth), free.plane(depth));
             for (one, all) in one.stress.iter().zip(&all.stress) {
                 let middle = all.slice(s![.., TIMES / 2 * 4..(TIMES / 2 + 1) * 4]);
-                // The free grid ends: its far parts lack (width · depth)/(half length)², 24 tractions of 5 at 123 µm.
+                // The free grid ends: its far parts lack (width · depth)/(half length)², 24 tractions of 5 at
+                // 123 µm.
                 let difference = (one - &middle).iter().fold(0.0, |most: f64, value| most.max(value.abs()));
                 assert!(difference < 0.02, "{depth}: {difference}");
             }

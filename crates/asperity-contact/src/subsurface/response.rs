@@ -13,11 +13,13 @@ use crate::units::Metre;
 
 /// The stress at one depth of a body under the tractions of one contact after another.
 ///
-/// It keeps the transforms of the influence, which take most of the time of [`Subsurface::plane`]. The results are the same.
+/// It keeps the transforms of the influence, which take most of the time of [`Subsurface::plane`]. The
+/// results are the same.
 pub struct StressAtDepth {
     body: Subsurface,
     depth: Metre,
-    /// Transforms of the influence of the pressure and of the shear along x and y on each component, each computed when it is first needed.
+    /// Transforms of the influence of the pressure and of the shear along x and y on each component, each
+    /// computed when it is first needed.
     influence: [OnceLock<[Spectrum; 6]>; 3],
 }
 
@@ -33,7 +35,8 @@ impl StressAtDepth {
         self.body.grid()
     }
 
-    /// Computes the components of the stress, Pa, in the order of [`Component::ALL`], under these `tractions`.
+    /// Computes the components of the stress, Pa, in the order of [`Component::ALL`], under these
+    /// `tractions`.
     ///
     /// # Panics
     /// If the shape of a traction differs from that of the grid.

@@ -12,18 +12,20 @@ use crate::units::{Dimension, Kelvin, Second, WattPerSquareMetre};
 
 /// Temperature of two bodies over a pass, step by step, each in its own frame.
 ///
-/// The flux into a cell is linear in time within a step; in the first it grows from 0. The heat of the present step is
-/// treated exactly, by the coefficients of uniform cells or, on a periodic boundary, of waves. The heat of earlier steps is
-/// a sum of exponentials in the waves of each body. The heat is divided cell by cell, to a relative residual of 10⁻¹⁰.
+/// The flux into a cell is linear in time within a step; in the first it grows from 0. The heat of the
+/// present step is treated exactly, by the coefficients of uniform cells or, on a periodic boundary, of
+/// waves. The heat of earlier steps is a sum of exponentials in the waves of each body. The heat is divided
+/// cell by cell, to a relative residual of 10⁻¹⁰.
 ///
-/// A body stores three numbers in single precision for each exponential (9 for 127 steps) and each of its waves. Along an
-/// axis of n cells there are 1.1 nΔx/√(DΔt) + 5.5 √N waves for N steps, or n + 5 √(DΔtN)/Δx if these are fewer. Examples
-/// are 0.8 MB for 64² cells and 127 steps with DΔt = 25 Δx², and 1.1 MB for 256² cells and 128 steps with DΔt = 100 Δx².
-/// The present step takes five convolutions and about ten for the heat partition, of the padded size, or direct sums for
-/// few cells.
+/// A body stores three numbers in single precision for each exponential (9 for 127 steps) and each of its
+/// waves. Along an axis of n cells there are 1.1 nΔx/√(DΔt) + 5.5 √N waves for N steps, or n + 5 √(DΔtN)/Δx
+/// if these are fewer. Examples are 0.8 MB for 64² cells and 127 steps with DΔt = 25 Δx², and 1.1 MB for 256²
+/// cells and 128 steps with DΔt = 100 Δx². The present step takes five convolutions and about ten for the
+/// heat partition, of the padded size, or direct sums for few cells.
 ///
-/// The method was compared with an integral over the history of every cell. The error is 3·10⁻⁵ if DΔt is above a squared
-/// cell size, 5·10⁻⁴ at 0.3, and a few per cent at 0.02, where the heat of a step stays in its cell.
+/// The method was compared with an integral over the history of every cell. The error is 3·10⁻⁵ if DΔt is
+/// above a squared cell size, 5·10⁻⁴ at 0.3, and a few per cent at 0.02, where the heat of a step stays in
+/// its cell.
 pub struct FlashTemperature {
     bulk: [Kelvin; 2],
     cell_area: f64,
@@ -50,14 +52,15 @@ struct HeatedBody {
 }
 
 impl FlashTemperature {
-    /// Creates two bodies at rest at their `bulk` temperatures, on their `grids`, lower one first. They can be heated over
-    /// `steps` steps of equal time. More steps are possible, but the effect of older heat is then slightly inaccurate.
+    /// Creates two bodies at rest at their `bulk` temperatures, on their `grids`, lower one first. They can
+    /// be heated over `steps` steps of equal time. More steps are possible, but the effect of older heat is
+    /// then slightly inaccurate.
     ///
     /// Along a periodic axis of the `boundary` both bodies have the same number of cells.
     ///
     /// # Errors
-    /// [`Error::GridMismatch`] if pitches, transverse widths or periods differ, [`Error::OutOfRange`] for an invalid time
-    /// or bulk temperature.
+    /// [`Error::GridMismatch`] if pitches, transverse widths or periods differ, [`Error::OutOfRange`] for an
+    /// invalid time or bulk temperature.
     pub fn new(
         grids: [&Grid; 2],
         thermal: [Thermal; 2],
@@ -118,24 +121,25 @@ impl FlashTemperature {
         }
     }
 
-    /// Advances by a step. At its end these flat `cells` of the lower and of the upper body are in contact, paired by
-    /// index, and friction heats each by a `flux`. The temperature is that at the end of the step.
+    /// Advances by a step. At its end these flat `cells` of the lower and of the upper body are in contact,
+    /// paired by index, and friction heats each by a `flux`. The temperature is that at the end of the step.
     ///
     /// # Errors
     /// [`Error::NotConverged`].
     ///
     /// # Panics
-    /// If the numbers of cells and fluxes differ, or if the cells of the upper body are not those of the lower one with a
-    /// common shift.
+    /// If the numbers of cells and fluxes differ, or if the cells of the upper body are not those of the
+    /// lower one with a common shift.
     pub fn step(&mut self, cells: [&[u32]; 2], flux: &[WattPerSquareMetre]) -> Result<FlashStep> {
         self.step_between(cells, [0.0; 2], flux)
     }
 
-    /// Advances by a step like [`FlashTemperature::step`], with the contact displaced from these cells of the lower and of
-    /// the upper body by a `fraction` of a cell, 0 ≤ `fraction` < 1, towards the next along x.
+    /// Advances by a step like [`FlashTemperature::step`], with the contact displaced from these cells of the
+    /// lower and of the upper body by a `fraction` of a cell, 0 ≤ `fraction` < 1, towards the next along x.
     ///
-    /// The temperature is the weighted mean of both cells, and the heat is divided in the same proportion. The last cell of
-    /// a row along x is followed by the first. The contact stays in one place on the body during the step.
+    /// The temperature is the weighted mean of both cells, and the heat is divided in the same proportion.
+    /// The last cell of a row along x is followed by the first. The contact stays in one place on the body
+    /// during the step.
     ///
     /// # Errors
     /// [`Error::NotConverged`].
@@ -161,8 +165,8 @@ impl FlashTemperature {
             || lower.add_history(cells[0], fraction[0], of_lower),
             || upper.add_history(cells[1], fraction[1], of_upper),
         );
-        // x is the flux into the lower body: (G₁ + G₂) x = G₂ q + (T_b2 + T₂) − (T_b1 + T₁), with the temperature rise T
-        // from earlier steps.
+        // x is the flux into the lower body: (G₁ + G₂) x = G₂ q + (T_b2 + T₂) − (T_b1 + T₁), with the
+        // temperature rise T from earlier steps.
         let mut right: Vec<f64> = rise[1]
             .iter()
             .zip(&rise[0])
@@ -226,7 +230,8 @@ impl FlashTemperature {
 }
 
 impl HeatedBody {
-    /// Adds the temperature rise from all heat before the present step, at a `fraction` of a cell beyond the flat `cells`.
+    /// Adds the temperature rise from all heat before the present step, at a `fraction` of a cell beyond the
+    /// flat `cells`.
     fn add_history(&mut self, cells: &[u32], fraction: f64, rise: &mut [Kelvin]) {
         if fraction == 0.0 {
             self.add_history_at(cells, rise);
@@ -325,7 +330,8 @@ mod tests {
 
     #[test]
     fn it_is_the_convolution_with_the_past_of_every_cell() {
-        // Compared with the response of each cell to a sudden flux, integrated over all steps; DΔt in squared cell sizes.
+        // Compared with the response of each cell to a sudden flux, integrated over all steps; DΔt in squared
+        // cell sizes.
         for (spread, close) in
             [(0.02, 5e-2), (0.3, 5e-4), (1.0, 3e-5), (5.0, 3e-5), (40.0, 3e-5), (2000.0, 3e-5)]
         {

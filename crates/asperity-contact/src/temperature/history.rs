@@ -17,9 +17,10 @@ use crate::units::{Kelvin, Metre, Second, WattPerSquareMetre};
 /// T̂(t) = ∫ q̂(t − τ) e^(−Dq²τ)/(β√(πτ)) dτ,  τ ≥ Δt
 /// ```
 ///
-/// with 1/√(πτ) as a sum of exponentials. Each exponential needs one number per wave from one step to the next. Waves with
-/// D q² Δt > 12 decay within a step and are omitted. Along a free edge the waves have a period longer than the body by 5
-/// √(D t), with the time t of all steps. At this distance the temperature of a source is reduced to erfc(2.5) = 4e-4.
+/// with 1/√(πτ) as a sum of exponentials. Each exponential needs one number per wave from one step to the
+/// next. Waves with D q² Δt > 12 decay within a step and are omitted. Along a free edge the waves have a
+/// period longer than the body by 5 √(D t), with the time t of all steps. At this distance the temperature of
+/// a source is reduced to erfc(2.5) = 4e-4.
 ///
 /// Single precision is used; its error is far below that of the exponentials.
 pub(super) struct History {
@@ -83,7 +84,8 @@ impl History {
         let unit = step.sqrt() / thermal.effusivity() * grid.cell_area() / (axes[0].period * axes[1].period);
         let weight = Array2::from_shape_fn(shape, |(i, j)| unit * axes[0].weights[i] * axes[1].weights[j]);
         let term = |(s, w): (f64, f64)| {
-            // Moments of an exponential with the rate r = Dq² + s over a step: ∫ e^(−rt) dt and ∫ t e^(−rt) dt.
+            // Moments of an exponential with the rate r = Dq² + s over a step: ∫ e^(−rt) dt and ∫ t e^(−rt)
+            // dt.
             let moments = |exponent: f64| {
                 let r = exponent + s;
                 let whole = -(-r).exp_m1() / r;
@@ -180,8 +182,8 @@ const NOTHING: f32 = 1e-25;
 const FADED: f64 = 12.0;
 
 impl Waves {
-    /// Creates the waves along an `axis` of `grid` that remain after a step with `spread` DΔt. Their period is that of the
-    /// grid, or longer by a `reach`.
+    /// Creates the waves along an `axis` of `grid` that remain after a step with `spread` DΔt. Their period
+    /// is that of the grid, or longer by a `reach`.
     fn new(grid: &Grid, axis: usize, boundary: Boundary, reach: Option<Metre>, spread: f64) -> Self {
         let (cells, pitch) = (grid.shape[axis], grid.pitch[axis]);
         let period = grid.extent()[axis] + reach.unwrap_or(0.0);
@@ -216,8 +218,9 @@ impl Waves {
     }
 }
 
-/// Response of the wave with `phase` φ = qΔx to a flux uniform over cells, sampled at their centres after a step with
-/// `spread` DΔt/Δx². It is Σ sin(½φₙ)/½φₙ e^(−spread (φₙ² − φ²)) over all φₙ = φ + 2πn, which are equal at the centres.
+/// Response of the wave with `phase` φ = qΔx to a flux uniform over cells, sampled at their centres after a
+/// step with `spread` DΔt/Δx². It is Σ sin(½φₙ)/½φₙ e^(−spread (φₙ² − φ²)) over all φₙ = φ + 2πn, which are
+/// equal at the centres.
 fn even(phase: f64, spread: f64) -> f64 {
     let alias = |n: i32| {
         let own = phase + TAU * f64::from(n);

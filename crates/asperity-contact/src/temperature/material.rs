@@ -33,7 +33,8 @@ impl Thermal {
         self.conductivity / (self.density * self.heat_capacity)
     }
 
-    /// Effusivity β = √(λρc), W √s/(m² K): the flux that heats the surface by ΔT after the time t is β ΔT √π/(2√t).
+    /// Effusivity β = √(λρc), W √s/(m² K): the flux that heats the surface by ΔT after the time t is β ΔT
+    /// √π/(2√t).
     pub fn effusivity(&self) -> f64 {
         (self.conductivity * self.density * self.heat_capacity).sqrt()
     }

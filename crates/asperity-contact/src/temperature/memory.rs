@@ -3,10 +3,11 @@
 use crate::grid::Field;
 use crate::math::Cholesky;
 
-/// Returns rates s and weights w with 1/√(πτ) ≈ Σ w e^(−sτ) for 1 ≤ τ ≤ `last`, accurate to 2e-4; τ and 1/s are in steps.
+/// Returns rates s and weights w with 1/√(πτ) ≈ Σ w e^(−sτ) for 1 ≤ τ ≤ `last`, accurate to 2e-4; τ and 1/s
+/// are in steps.
 ///
-/// There are 4 + ⌈ln `last`⌉ rates (11 for 1000 steps), in geometric sequence from 0.3/`last` to 4. The weights minimise
-/// the mean square of the relative error over ln τ.
+/// There are 4 + ⌈ln `last`⌉ rates (11 for 1000 steps), in geometric sequence from 0.3/`last` to 4. The
+/// weights minimise the mean square of the relative error over ln τ.
 pub(super) fn exponentials(last: f64) -> Vec<(f64, f64)> {
     let last = last.max(SHORTEST);
     let terms = 4 + last.ln().ceil() as usize;

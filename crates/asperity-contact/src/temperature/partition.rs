@@ -22,8 +22,8 @@ pub(super) struct Preconditioner {
 }
 
 impl Preconditioner {
-    /// Creates it from the coefficients `influence(i, j)` at the offsets ±i, ±j of a positive definite matrix, on a grid of
-    /// `shape`.
+    /// Creates it from the coefficients `influence(i, j)` at the offsets ±i, ±j of a positive definite
+    /// matrix, on a grid of `shape`.
     pub(super) fn new(shape: [usize; 2], influence: impl Fn(usize, usize) -> f64) -> Self {
         let cells = shape[0] * shape[1];
         // Coefficients are scaled to about 1, because SI values exceed the range of single precision.
@@ -97,8 +97,8 @@ pub(super) fn conjugate_gradients(
     Err(Error::NotConverged { iterations: MOST, residual: norm(&r) / size, tolerance: TOLERANCE })
 }
 
-/// [`conjugate_gradients`] for an A that need not be symmetric: the stabilised biconjugate gradient method, van der Vorst,
-/// SIAM J. Sci. Stat. Comput. 13, 631 (1992).
+/// [`conjugate_gradients`] for an A that need not be symmetric: the stabilised biconjugate gradient method,
+/// van der Vorst, SIAM J. Sci. Stat. Comput. 13, 631 (1992).
 ///
 /// # Errors
 /// [`Error::NotConverged`].

@@ -55,7 +55,8 @@ impl Spread {
         to.iter().zip(sums).for_each(|(cell, sum)| *sum += output[*cell as usize]);
     }
 
-    /// Returns the matrix of the coefficients between the flat `cells`, row by row, if it is cheaper than transforms.
+    /// Returns the matrix of the coefficients between the flat `cells`, row by row, if it is cheaper than
+    /// transforms.
     pub(super) fn matrix(&self, cells: &[u32]) -> Option<Vec<f64>> {
         self.is_direct(cells.len().pow(2)).then(|| {
             let places = self.places(cells);
@@ -88,8 +89,8 @@ impl Spread {
 /// Number of products that take as long as a convolution, per cell of its transforms.
 const DIRECT: usize = 12;
 
-/// Coefficients of the temperature of a body at rest at the end of a step, K m²/W, on cells of the `grid`. The first are
-/// for a flux that grows from 0 during the step, the second for one that decreases to 0.
+/// Coefficients of the temperature of a body at rest at the end of a step, K m²/W, on cells of the `grid`.
+/// The first are for a flux that grows from 0 during the step, the second for one that decreases to 0.
 ///
 /// Without a periodic axis they are those of [`Cell::ramps`]; otherwise those of waves, with x = √(Dq²t),
 ///
@@ -130,8 +131,8 @@ pub(super) fn ramps(
         .map(|table| Ramp { padded, values: Values::Waves(table) })
 }
 
-/// Returns the cyclic grid for bodies on `grid` with at most this `diffusivity`. It is so large that the wrap-around along
-/// a free edge within a step vanishes or, with waves, is erfc(3) = 2e-5 of the heat.
+/// Returns the cyclic grid for bodies on `grid` with at most this `diffusivity`. It is so large that the
+/// wrap-around along a free edge within a step vanishes or, with waves, is erfc(3) = 2e-5 of the heat.
 pub(super) fn padded(grid: &Grid, diffusivity: f64, boundary: Boundary, step: Second) -> [usize; 2] {
     let length = 2.0 * (diffusivity * step).sqrt();
     [0, 1].map(|axis| {

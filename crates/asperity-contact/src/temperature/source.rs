@@ -8,16 +8,16 @@ use crate::math::gauss_legendre;
 use crate::temperature::Thermal;
 use crate::units::{Metre, MetrePerSecond, Second};
 
-/// Steady temperature at `(x, y)` per unit flux into the cell centred at the origin, K m²/W, for a body that passes the
-/// cell at the `speed` V along x, positive or negative.
+/// Steady temperature at `(x, y)` per unit flux into the cell centred at the origin, K m²/W, for a body that
+/// passes the cell at the `speed` V along x, positive or negative.
 ///
 /// ```text
 /// T = (1/2πλ) ∬ e^(−(|V|r − Vx)/2D)/r  =  (1/2πλ) ∮ (e^(−w r₀) − e^(−w r₁))/w dθ,   w = (|V| + V cos θ)/2D
 /// ```
 ///
-/// where the ray at the angle θ from `(x, y)` enters the cell at r₀ and leaves it at r₁. At V = 0 this is the displacement
-/// [`crate::kernel::normal_displacement`] for E* = 2λ. The error is below 1e-12 of the temperature of a stationary square
-/// cell under its own flux. Jaeger, Proc. R. Soc. N.S.W. 76, 203 (1942).
+/// where the ray at the angle θ from `(x, y)` enters the cell at r₀ and leaves it at r₁. At V = 0 this is the
+/// displacement [`crate::kernel::normal_displacement`] for E* = 2λ. The error is below 1e-12 of the
+/// temperature of a stationary square cell under its own flux. Jaeger, Proc. R. Soc. N.S.W. 76, 203 (1942).
 pub fn moving_source_temperature(
     x: Metre,
     y: Metre,
@@ -53,15 +53,15 @@ impl Cell {
         around / (TAU * thermal.conductivity)
     }
 
-    /// Temperature at a point of a body at rest, K m²/W, per unit flux at the end of a step, for a flux that grows from 0
-    /// during the `step`, and for one that decreases to 0.
+    /// Temperature at a point of a body at rest, K m²/W, per unit flux at the end of a step, for a flux that
+    /// grows from 0 during the `step`, and for one that decreases to 0.
     ///
     /// ```text
     /// Σ of both:   (1/2πλ) ∮ ℓ [i¹(u₀) − i¹(u₁)] dθ                                         u = r/ℓ,  ℓ = 2√(Dt)
     /// falling:     (1/2πλ) ∮ 2ℓ [i³(u₀) + u₀ i²(u₀) − i³(u₁) − u₁ i²(u₁)] dθ                iⁿ: iⁿerfc
     /// ```
-    /// Integrals over a ray of the point source solutions erfc(u)/r and 2 i¹(u)/ℓ. Carslaw and Jaeger, *Conduction of Heat
-    /// in Solids*, chapter X and appendix II.
+    /// Integrals over a ray of the point source solutions erfc(u)/r and 2 i¹(u)/ℓ. Carslaw and Jaeger,
+    /// *Conduction of Heat in Solids*, chapter X and appendix II.
     pub(super) fn ramps(&self, at: [Metre; 2], thermal: &Thermal, step: Second) -> [f64; 2] {
         let length = 2.0 * (thermal.diffusivity() * step).sqrt();
         let [dx, dy] = [0, 1].map(|axis| (at[axis].abs() - self.half[axis]).max(0.0));
@@ -77,8 +77,9 @@ impl Cell {
         [both - falling, falling]
     }
 
-    /// Computes ∮ f(θ, [r₀, r₁]) dθ over the rays from a point that meet the cell. The Gauss–Legendre rule is applied to
-    /// halved intervals until halving changes nothing beyond the round-off of lengths, one of which may be given.
+    /// Computes ∮ f(θ, [r₀, r₁]) dθ over the rays from a point that meet the cell. The Gauss–Legendre rule is
+    /// applied to halved intervals until halving changes nothing beyond the round-off of lengths, one of
+    /// which may be given.
     fn around(&self, at: [Metre; 2], length: Metre, f: impl Fn(f64, [f64; 2]) -> f64) -> f64 {
         let ([x, y], [a, b]) = (at, self.half);
         let inside = x.abs() <= a && y.abs() <= b;
@@ -137,8 +138,8 @@ impl Cell {
 
 /// Number of points of the rule on an interval.
 const POINTS: usize = 10;
-/// Smallest change of the integral for which an interval is halved, relative to the half sides of the cell, or to a tenth
-/// of lengths.
+/// Smallest change of the integral for which an interval is halved, relative to the half sides of the cell,
+/// or to a tenth of lengths.
 const TOLERANCE: f64 = 1e-14;
 /// Largest number of halvings.
 const DEEPEST: usize = 30;
@@ -203,7 +204,8 @@ mod tests {
                 let step = 2e-3;
                 let past: f64 = (-17_500..5_000).map(|n| step * integrand(step * f64::from(n))).sum();
                 let found = moving_source_temperature(at[0], at[1], [2.0, 2.0], &unit(), speed);
-                // The largest half side is 1, and the temperature of the cell at rest under its own flux 1.122.
+                // The largest half side is 1, and the temperature of the cell at rest under its own flux
+                // 1.122.
                 assert!((found - past).abs() < 2e-12, "{speed}, {at:?}: {found} and {past}");
             }
         }
@@ -241,7 +243,8 @@ mod tests {
             }
             assert!((rising - sums[0]).abs() < 1e-8 && (falling - sums[1]).abs() < 1e-8, "{at:?}");
         }
-        // A cell much larger than ℓ is heated like a half-space, 2√(t/π)/β, with two thirds from a growing flux.
+        // A cell much larger than ℓ is heated like a half-space, 2√(t/π)/β, with two thirds from a growing
+        // flux.
         let wide = Cell::new([100.0; 2]).ramps([0.0; 2], &thermal, step);
         let plane = 2.0 * (step / PI).sqrt() / thermal.effusivity();
         assert_relative_eq!(wide[0], plane / 1.5, max_relative = 1e-13);

@@ -17,10 +17,10 @@ use crate::units::{Dimension, Kelvin, MetrePerSecond, WattPerSquareMetre};
 
 /// Steady temperature of the cells in contact.
 ///
-/// A free boundary uses the coefficients of [`crate::temperature::moving_source_temperature`], a periodic one those of
-/// waves, `1/(λ √(q² + iVq_x/D))`. The uniform part of a periodic contact has no steady temperature: it grows without bound
-/// as 2q̄√(t/π)/β. It is omitted (0 at q = 0), so that temperatures are relative to the mean of the surface, which is set
-/// to the bulk temperature.
+/// A free boundary uses the coefficients of [`crate::temperature::moving_source_temperature`], a periodic one
+/// those of waves, `1/(λ √(q² + iVq_x/D))`. The uniform part of a periodic contact has no steady temperature:
+/// it grows without bound as 2q̄√(t/π)/β. It is omitted (0 at q = 0), so that temperatures are relative to
+/// the mean of the surface, which is set to the bulk temperature.
 pub struct SteadyTemperature {
     bulk: [Kelvin; 2],
     grid: Grid,
@@ -35,11 +35,12 @@ pub struct SteadyTemperature {
 }
 
 impl SteadyTemperature {
-    /// Creates the contact on `grid` of bodies that pass it at these `speeds` along x, positive or negative, lower one
-    /// first.
+    /// Creates the contact on `grid` of bodies that pass it at these `speeds` along x, positive or negative,
+    /// lower one first.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if only one axis is periodic, [`Error::OutOfRange`] for an invalid speed or bulk temperature.
+    /// [`Error::Unsupported`] if only one axis is periodic, [`Error::OutOfRange`] for an invalid speed or
+    /// bulk temperature.
     pub fn new(
         grid: Grid,
         thermal: [Thermal; 2],
@@ -82,8 +83,8 @@ impl SteadyTemperature {
     /// Computes the temperature of these flat `cells`, which friction heats by a `flux` each.
     ///
     /// # Errors
-    /// [`Error::NotConverged`]; [`Error::Unsupported`] if all cells of a periodic contact touch, because the partition of
-    /// its mean flux is undetermined.
+    /// [`Error::NotConverged`]; [`Error::Unsupported`] if all cells of a periodic contact touch, because the
+    /// partition of its mean flux is undetermined.
     ///
     /// # Panics
     /// If the numbers of cells and fluxes differ.

@@ -24,16 +24,17 @@ pub struct Temperature {
         exists = TEMPERATURE
     )]
     pub bulk: [Kelvin; 2],
-    /// Computes the flash temperature at each position of every n-th computed pass, from the first on, for films and results; in other
-    /// passes each cell has its mean temperature over the contacts of the last of these. It requires the thermal constants of both bodies,
-    /// \[friction\] and a speed. 0: the surfaces have the temperatures of the bodies.
+    /// Computes the flash temperature at each position of every n-th computed pass, from the first on, for
+    /// films and results; in other passes each cell has its mean temperature over the contacts of the last of
+    /// these. It requires the thermal constants of both bodies, \[friction\] and a speed. 0: the surfaces
+    /// have the temperatures of the bodies.
     #[key(count = 0, absent = "1 with thermal constants, else 0", example = "10")]
     pub every: Option<usize>,
 }
 
 impl Temperature {
-    /// Returns the temperatures, with the flash temperature at each position if the table leaves it open and the bodies have
-    /// thermal constants.
+    /// Returns the temperatures, with the flash temperature at each position if the table leaves it open and
+    /// the bodies have thermal constants.
     #[must_use]
     pub fn resolved(self, have_thermal_constants: bool) -> Self {
         Self { every: self.every.or(Some(usize::from(have_thermal_constants))), ..self }

@@ -20,7 +20,8 @@ const WORK: JoulePerSquareMetre = FRAC_1_PI;
 
 const JKR: JkrSphere = JkrSphere { radius: RADIUS, modulus: MODULUS, work: WORK };
 
-/// The range of the attraction is the shortest one that the grid resolves. It falls as √Δx, and with it the deviation from JKR.
+/// The range of the attraction is the shortest one that the grid resolves. It falls as √Δx, and with it the
+/// deviation from JKR.
 pub(super) const JKR_LIMIT: Case = Case {
     name: "JKR: sphere, range of the grid",
     source: "Johnson, Kendall & Roberts (1971)",
@@ -47,7 +48,8 @@ fn jkr_limit() -> Result<Vec<Check>> {
     })
 }
 
-/// Returns the minimum of the parabola through the least of equidistant values and its neighbours; the value itself at an end.
+/// Returns the minimum of the parabola through the least of equidistant values and its neighbours; the value
+/// itself at an end.
 fn least(values: &[f64]) -> f64 {
     let smallest = |best: usize, n: usize| if values[n] < values[best] { n } else { best };
     let n = (0..values.len()).fold(0, smallest);
@@ -88,8 +90,8 @@ fn maugis(lambda: f64, width: Metre, expected: Expected) -> Result<Vec<Check>> {
     })
 }
 
-/// The finer the grid, the shorter the range. The mean pressure is compared at the half width of contact, which is known to half a
-/// cell.
+/// The finer the grid, the shorter the range. The mean pressure is compared at the half width of contact,
+/// which is known to half a cell.
 pub(super) const WAVE: Case =
     Case { name: "Johnson: adhesive wave, α = 0.3", source: "Johnson (1995)", checks: wave };
 

@@ -20,8 +20,8 @@ fn coated([young, poisson]: [f64; 2], thickness: f64, layer: [f64; 2]) -> Result
     Ok(CoatedHalfSpace::new(&Material::elastic(young, poisson)?, &coating))
 }
 
-/// A short wave depends on the layer, a long one on the substrate. On a rigid substrate the limit is an elastic foundation,
-/// or for an incompressible layer the flow between two planes.
+/// A short wave depends on the layer, a long one on the substrate. On a rigid substrate the limit is an
+/// elastic foundation, or for an incompressible layer the flow between two planes.
 pub(super) const HARMONICS: Case = Case {
     name: "Coated half-space: harmonics",
     source: "O'Sullivan and King (1988); Johnson (1985), section 5.8",
@@ -54,8 +54,8 @@ pub(super) const HARMONICS: Case = Case {
     },
 };
 
-/// A smooth pressure without force or moment, which is affected neither by its images nor by the mean. Its waves, which are
-/// exact, are compared with the sum of its cells, each with uniform pressure.
+/// A smooth pressure without force or moment, which is affected neither by its images nor by the mean. Its
+/// waves, which are exact, are compared with the sum of its cells, each with uniform pressure.
 pub(super) const FREE_AND_PERIODIC: Case = Case {
     name: "Coated half-space: cells against harmonics",
     source: "the Hankel transform",
@@ -86,8 +86,8 @@ pub(super) const FREE_AND_PERIODIC: Case = Case {
     },
 };
 
-/// A layer thick compared with the contact: Hertz' contact of the layer. The half-space below sinks as a whole in
-/// proportion to the contrast of the compliances, and bends by that times (a/t)³.
+/// A layer thick compared with the contact: Hertz' contact of the layer. The half-space below sinks as a
+/// whole in proportion to the contrast of the compliances, and bends by that times (a/t)³.
 pub(super) const THICK: Case = Case {
     name: "Coated half-space: Hertz on a thick layer",
     source: "Johnson (1985), section 5.8",
@@ -115,8 +115,9 @@ pub(super) const THICK: Case = Case {
     },
 };
 
-/// A compressible layer thin compared with the contact, on a rigid body. It is an elastic foundation with the modulus
-/// E(1 − ν)/(1 + ν)(1 − 2ν), apart from terms of order (qt)² in the harmonics and an edge as wide as the layer thickness.
+/// A compressible layer thin compared with the contact, on a rigid body. It is an elastic foundation with the
+/// modulus E(1 − ν)/(1 + ν)(1 − 2ν), apart from terms of order (qt)² in the harmonics and an edge as wide as
+/// the layer thickness.
 pub(super) const FOUNDATION: Case = Case {
     name: "Coated half-space: thin layer on a rigid body",
     source: "Johnson (1985), section 5.8",
@@ -151,8 +152,8 @@ pub(super) const INCOMPRESSIBLE: Case = Case {
     },
 };
 
-/// A sphere on a layer with the thickness a/n on a rigid body. The load is that at which the contact radius is a = 1 for
-/// t → 0. `limit` returns load, peak pressure and approach in this limit.
+/// A sphere on a layer with the thickness a/n on a rigid body. The load is that at which the contact radius
+/// is a = 1 for t → 0. `limit` returns load, peak pressure and approach in this limit.
 fn thin_layer(
     checks: [(&'static str, Expected); 2],
     layer: [f64; 2],

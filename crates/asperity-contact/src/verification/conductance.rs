@@ -38,8 +38,8 @@ fn radius(grid: &Grid, cells: &Array2<bool>) -> f64 {
     (grid.cell_area() * cells.iter().filter(|cell| **cell).count() as f64 / PI).sqrt()
 }
 
-/// A square, an ellipse and a disc, whose conductance is their electrostatic capacity: the flux grows as 1/√distance at the
-/// rim, which leaves order 1. The disc is compared with that of the same area.
+/// A square, an ellipse and a disc, whose conductance is their electrostatic capacity: the flux grows as
+/// 1/√distance at the rim, which leaves order 1. The disc is compared with that of the same area.
 pub(super) const SPOTS: Case = Case {
     name: "conductance of spots: square, disc, ellipse 2 : 1",
     source: "G = 2κₛa, πκₛa/K(e); capacity of a square: Read, J. Comput. Phys. 133, 1 (1997)",
@@ -88,8 +88,9 @@ pub(super) const PAIR: Case = Case {
     },
 };
 
-/// A square spot on a free grid and on one that repeats itself: its images, which a uniform flux into the mean plane balances,
-/// take 3.9002649/πκₛL of its resistance as it becomes small. Values on 64 and 128 cells are extrapolated.
+/// A square spot on a free grid and on one that repeats itself: its images, which a uniform flux into the
+/// mean plane balances, take 3.9002649/πκₛL of its resistance as it becomes small. Values on 64 and 128 cells
+/// are extrapolated.
 pub(super) const LATTICE: Case = Case {
     name: "conductance: free less periodic",
     source: "constant of the square lattice: Bonsall and Maradudin (1977)",
@@ -110,7 +111,8 @@ pub(super) const LATTICE: Case = Case {
     },
 };
 
-/// Potential of a square lattice of unit charges in a neutral background, at one of them, without its own, times −1.
+/// Potential of a square lattice of unit charges in a neutral background, at one of them, without its own,
+/// times −1.
 const LATTICE_CONSTANT: f64 = 3.900_264_9;
 
 /// Through a thick film on a disc the flux is uniform, and the bodies have the resistance of a uniform flux.
@@ -131,8 +133,8 @@ pub(super) const FILM: Case = Case {
     },
 };
 
-/// Gas in a gap without contact: of an even gap, and of one with a wave, between bodies that conduct much better and much
-/// worse than it.
+/// Gas in a gap without contact: of an even gap, and of one with a wave, between bodies that conduct much
+/// better and much worse than it.
 pub(super) const GAS: Case = Case {
     name: "conductance: gas in a gap",
     source: "h = κ/(g + M); means of it and of its inverse",
@@ -169,7 +171,8 @@ pub(super) const GAS: Case = Case {
     },
 };
 
-/// A disc on a layer that is thin or thick against it has the conductance of the half-space below or of the layer.
+/// A disc on a layer that is thin or thick against it has the conductance of the half-space below or of the
+/// layer.
 pub(super) const COATED: Case = Case {
     name: "conductance: disc on a coated body",
     source: "κₛ of the layer and of the body below it",
@@ -191,8 +194,8 @@ pub(super) const COATED: Case = Case {
     },
 };
 
-/// A wavy surface under loads around one: the secants of load over approach enclose its conductance, and their mean comes to it.
-/// The resistance of a full contact is that of the grid.
+/// A wavy surface under loads around one: the secants of load over approach enclose its conductance, and
+/// their mean comes to it. The resistance of a full contact is that of the grid.
 pub(super) const BARBER: Case = Case {
     name: "conductance: Barber's relation",
     source: "Barber (2003): G = κₛ/E* dW/dδ",

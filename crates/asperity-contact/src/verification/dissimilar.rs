@@ -49,7 +49,8 @@ fn identical() -> Result<Vec<Check>> {
     })
 }
 
-/// Slightly dissimilar bodies pressed together: the shear is of order β, its effect on the pressure of order β².
+/// Slightly dissimilar bodies pressed together: the shear is of order β, its effect on the pressure of order
+/// β².
 pub(super) const ALMOST_IDENTICAL: Case = Case {
     name: "almost identical bodies: W alone",
     source: "Johnson (1985), section 5.4",
@@ -104,7 +105,8 @@ pub(super) const GOODMAN: Case = Case {
     },
 };
 
-/// With the effect of the shear on the pressure the stick area is smaller than Goodman's, here by 0.09 and 0.1.
+/// With the effect of the shear on the pressure the stick area is smaller than Goodman's, here by 0.09 and
+/// 0.1.
 pub(super) const SPENCE: Case = Case {
     name: "Spence's punch: β = 0.5",
     source: "Spence (1975); numbers of an axisymmetric program",
@@ -132,8 +134,8 @@ pub(super) const SPENCE: Case = Case {
     },
 };
 
-/// A growing self-similar contact: the stick ratio is that of the punch. In increments of the radius by two cells, new
-/// cells slip before they touch: order 1 in the increments.
+/// A growing self-similar contact: the stick ratio is that of the punch. In increments of the radius by two
+/// cells, new cells slip before they touch: order 1 in the increments.
 pub(super) const SPHERE: Case = Case {
     name: "Spence's sphere, in increments: β = 0.3",
     source: "Spence (1968, 1975); Mossakovskii (1963)",

@@ -9,7 +9,8 @@ use crate::reference::HertzLine;
 use crate::stress::Stress;
 use crate::subsurface::Tractions;
 
-/// A line contact that rolls, and one that slides, over a body. On the grid the pressure is its mean over a cell.
+/// A line contact that rolls, and one that slides, over a body. On the grid the pressure is its mean over a
+/// cell.
 pub(super) const LINE: Case = Case {
     name: "Dang Van: line contact that passes",
     source: "McEwen (1949); Johnson (1985), eq. 4.49; Dang Van (1993)",

@@ -40,7 +40,8 @@ pub(super) const PLATES: Case = Case {
     },
 };
 
-/// A corrugated gap 1 + a cos 2πx with a = 0.6. Sums over a period of a smooth function converge faster than any power.
+/// A corrugated gap 1 + a cos 2πx with a = 0.6. Sums over a period of a smooth function converge faster than
+/// any power.
 pub(super) const CORRUGATION: Case = Case {
     name: "flow: corrugation 1 + 0.6 cos",
     source: "mean of g³ along the crests, of g⁻³ across them",
@@ -62,8 +63,8 @@ pub(super) const CORRUGATION: Case = Case {
     },
 };
 
-/// Small roughness of relative rms height s: two crossed waves, which are isotropic to the second order, and grooves. The error is of
-/// the next orders in s.
+/// Small roughness of relative rms height s: two crossed waves, which are isotropic to the second order, and
+/// grooves. The error is of the next orders in s.
 pub(super) const SMALL: Case = Case {
     name: "flow: small roughness of rms height s",
     source: "perturbation: φ = 1 − 3s²/2; across grooves 1 − 6s², along 1 + 3s²",
@@ -107,7 +108,8 @@ pub(super) const DISCS: Case = Case {
     },
 };
 
-/// A gap that opens beside a round contact as an elastic one does, ∝ (r − a)^(3/2). The reference is extrapolated from 512² and 1024².
+/// A gap that opens beside a round contact as an elastic one does, ∝ (r − a)^(3/2). The reference is
+/// extrapolated from 512² and 1024².
 pub(super) const RIM: Case = Case {
     name: "flow: gap ∝ (r − a)^(3/2) beside a contact",
     source: "extrapolation with the order 2",
@@ -139,7 +141,8 @@ pub(super) const CHECKERBOARD: Case = Case {
     },
 };
 
-/// Gaps scattered over six decades, a quarter of the cells closed: sections, work, symmetry, and a channel along a diagonal.
+/// Gaps scattered over six decades, a quarter of the cells closed: sections, work, symmetry, and a channel
+/// along a diagonal.
 pub(super) const CONSERVATION: Case = Case {
     name: "flow: contrast 10¹⁸",
     source: "∇·q = 0: the same flux in every section; Σ q²/T = K G²",

@@ -15,7 +15,8 @@ use crate::surface::Form;
 use crate::units::{Newton, PerPascal};
 use crate::wear::{WEAR, Wear, WearCoefficient};
 
-/// A ball under a force that goes to and fro wears in the annulus that slips, by k/μ times the energy of a cycle.
+/// A ball under a force that goes to and fro wears in the annulus that slips, by k/μ times the energy of a
+/// cycle.
 pub(super) const CYCLE: Case = Case {
     name: "fretting: Q = ±0.8 μW, a cycle of wear",
     source: "V = (k/μ) E, E by Mindlin & Deresiewicz (1953); no wear for r < c",
@@ -32,7 +33,8 @@ pub(super) const JUMPS: Case = Case {
 const FRICTION: f64 = 0.6;
 const LOAD: Newton = 10.0;
 
-/// A ball of identical elastic bodies, without Poisson's effect: the slip is along the force, as the closed form assumes.
+/// A ball of identical elastic bodies, without Poisson's effect: the slip is along the force, as the closed
+/// form assumes.
 struct Ball {
     contact: CattaneoMindlin,
     pair: Pair,

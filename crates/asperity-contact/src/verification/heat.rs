@@ -22,9 +22,10 @@ fn insulating(other: &Thermal) -> Thermal {
     Thermal { conductivity: 1e-12 * other.conductivity, density: 1e-12 * other.density, ..*other }
 }
 
-/// A square at Péclet numbers from 0 to 100, with n cells per side. Superposition gives the temperature of every cell
-/// without error. The largest temperature is that of the hottest cell. At rest it is in the middle, and the error is of
-/// order 2. If it lies behind, between the centres of cells, it is missed by up to half a cell.
+/// A square at Péclet numbers from 0 to 100, with n cells per side. Superposition gives the temperature of
+/// every cell without error. The largest temperature is that of the hottest cell. At rest it is in the
+/// middle, and the error is of order 2. If it lies behind, between the centres of cells, it is missed by up
+/// to half a cell.
 pub(super) const SQUARE: Case = Case {
     name: "moving square: Pe 0, 1, 5, 10, 100",
     source: "Jaeger (1942); Carslaw and Jaeger (1959), chapter X",
@@ -75,9 +76,9 @@ fn square_source(peclet: f64, side: Metre) -> SquareSource {
     }
 }
 
-/// A heated disc on equal bodies at rest, each of which takes half. The temperature of the centre after 1/4, 1 and 4 times
-/// a²/D is compared with that of a disc with the area of the cells. Cells at the edge are inside or outside, so that the
-/// order scatters around 2.
+/// A heated disc on equal bodies at rest, each of which takes half. The temperature of the centre after 1/4,
+/// 1 and 4 times a²/D is compared with that of a disc with the area of the cells. Cells at the edge are
+/// inside or outside, so that the order scatters around 2.
 pub(super) const DISC: Case =
     Case { name: "heated disc: in time", source: "Carslaw and Jaeger (1959), chapter X", checks: disc };
 
@@ -152,8 +153,8 @@ pub(super) const HERTZIAN: Case = Case {
     },
 };
 
-/// A square of n cells per side moves over a cold body by one cell per step, for three of its sides or, if slow, for eight.
-/// Its largest temperature is compared with the steady one.
+/// A square of n cells per side moves over a cold body by one cell per step, for three of its sides or, if
+/// slow, for eight. Its largest temperature is compared with the steady one.
 pub(super) const TRANSIENT: Case = Case {
     name: "moving square, step by step",
     source: "Jaeger (1942)",
@@ -185,8 +186,8 @@ fn travelling_square(n: usize, peclet: f64) -> Result<f64> {
     Ok(relative(hottest - BULK, exact.max_temperature()))
 }
 
-/// Between equal bodies, one of them moving, the heat is divided equally as the speed decreases. At every speed, for any
-/// bodies, the sum is the frictional heat.
+/// Between equal bodies, one of them moving, the heat is divided equally as the speed decreases. At every
+/// speed, for any bodies, the sum is the frictional heat.
 pub(super) const DIVISION: Case = Case {
     name: "heat: divided, and all of it",
     source: "q₁ + q₂ = q",

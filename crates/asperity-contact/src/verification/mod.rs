@@ -1,8 +1,8 @@
 //! Verification: the whole program compared with closed forms, by the order of convergence.
 //!
-//! A [`Case`] is one closed form. It is computed on finer and finer grids, and each of its [`Check`]s tests that the error
-//! of one quantity decreases as in theory. A lucky per cent passes no check; an order does. With pressures constant in each
-//! cell and displacements evaluated at its centre, theory predicts:
+//! A [`Case`] is one closed form. It is computed on finer and finer grids, and each of its [`Check`]s tests
+//! that the error of one quantity decreases as in theory. A lucky per cent passes no check; an order does.
+//! With pressures constant in each cell and displacements evaluated at its centre, theory predicts:
 //!
 //! ```text
 //! load, approach, mean gap, energy: quantities from the minimum of the energy
@@ -15,8 +15,8 @@
 //!     order 1   a cell at each edge is inside or outside
 //! ```
 //!
-//! Shear, tangential displacement and stick area behave like pressure, approach and contact area. Increments with a growing
-//! contact, and steps of rolling, are of order 1.
+//! Shear, tangential displacement and stick area behave like pressure, approach and contact area. Increments
+//! with a growing contact, and steps of rolling, are of order 1.
 
 mod adhesion;
 mod coated;
@@ -84,7 +84,8 @@ pub enum Expected {
     Counted(f64),
     /// The error decreases as a power of the size.
     Order {
-        /// Accepted range of [`Check::order`]: around the theoretical order, with the scatter from staircase edges.
+        /// Accepted range of [`Check::order`]: around the theoretical order, with the scatter from staircase
+        /// edges.
         order: RangeInclusive<f64>,
         /// The largest |error| at the last size.
         finest: f64,
@@ -92,8 +93,8 @@ pub enum Expected {
 }
 
 impl Check {
-    /// Order k of |error| ∝ size^(−k), by a least-squares fit to the logarithms over all sizes. NaN if an error is 0 or if
-    /// there is a single size.
+    /// Order k of |error| ∝ size^(−k), by a least-squares fit to the logarithms over all sizes. NaN if an
+    /// error is 0 or if there is a single size.
     pub fn order(&self) -> f64 {
         let points = || self.sizes.iter().zip(&self.errors).map(|(n, e)| ((*n as f64).ln(), e.abs().ln()));
         let count = self.sizes.len() as f64;
@@ -119,7 +120,8 @@ impl Check {
     }
 }
 
-/// All cases: operators first, then solutions without friction, with adhesion, of viscoelastic bodies and with friction, frictional heating, flow through a gap, plastic flow and wear.
+/// All cases: operators first, then solutions without friction, with adhesion, of viscoelastic bodies and
+/// with friction, frictional heating, flow through a gap, plastic flow and wear.
 pub const CASES: &[Case] = &[
     operators::LOADED_RECTANGLE,
     operators::FREE_TRANSFORM,

@@ -16,8 +16,9 @@ fn displacement(mut operator: impl Operator, pressure: &Field) -> Field {
     displacement
 }
 
-/// A rectangle of n × n cells under uniform pressure: superposition gives the displacement of every cell without error. Its
-/// mean over the cell centres is the midpoint rule, of order 2 except for the logarithmic slope at the edges: Δx² ln Δx.
+/// A rectangle of n × n cells under uniform pressure: superposition gives the displacement of every cell
+/// without error. Its mean over the cell centres is the midpoint rule, of order 2 except for the logarithmic
+/// slope at the edges: Δx² ln Δx.
 pub(super) const LOADED_RECTANGLE: Case = Case {
     name: "Love: uniformly loaded rectangle",
     source: "Love (1929); Johnson (1985), eq. 3.25",
@@ -87,8 +88,8 @@ fn oblique_sinusoid() -> Result<Vec<Check>> {
     })
 }
 
-/// An infinite strip under uniform pressure, made of cells repeated along it. Superposition gives the displacement of every
-/// cell without error, relative to the distance r₀, the width of the grid.
+/// An infinite strip under uniform pressure, made of cells repeated along it. Superposition gives the
+/// displacement of every cell without error, relative to the distance r₀, the width of the grid.
 pub(super) const LOADED_STRIP: Case = Case {
     name: "Flamant: uniformly loaded strip",
     source: "Flamant (1892); Johnson (1985), section 2.4",

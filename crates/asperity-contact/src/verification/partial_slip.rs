@@ -26,7 +26,8 @@ struct PushedSphere {
 }
 
 impl PushedSphere {
-    /// Creates a contact with `n` cells along its radius, under the load 7 and a `share` of the friction limit.
+    /// Creates a contact with `n` cells along its radius, under the load 7 and a `share` of the friction
+    /// limit.
     fn new(poisson: f64, share: f64, n: usize) -> Result<Self> {
         let body = Material::elastic(2.0 * MODULUS * (1.0 - poisson * poisson), poisson)?;
         let normal = HertzSphere { radius: smooth::RADIUS, modulus: MODULUS, load: 7.0 };
@@ -68,8 +69,8 @@ fn travel(solution: &FrictionalSolution) -> f64 {
     DIRECTION[0] * solution.rigid_displacement[0] + DIRECTION[1] * solution.rigid_displacement[1]
 }
 
-/// With ν = 0 the slip is along the push, and the closed form is exact. With ν = 0.3 the displacement would be 5e-4
-/// smaller, and the shear across the push a twentieth of the largest.
+/// With ν = 0 the slip is along the push, and the closed form is exact. With ν = 0.3 the displacement would
+/// be 5e-4 smaller, and the shear across the push a twentieth of the largest.
 pub(super) const CATTANEO: Case = Case {
     name: "Cattaneo–Mindlin: Q = 0.6 μW",
     source: "Cattaneo (1938); Mindlin (1949); Johnson (1985), eqs. 7.39–7.42",
@@ -93,8 +94,8 @@ pub(super) const CATTANEO: Case = Case {
     },
 };
 
-/// A flat punch without slip: the closed form holds for any ν. The shear is infinite at the edge, and the edge is a
-/// staircase: order 1.
+/// A flat punch without slip: the closed form holds for any ν. The shear is infinite at the edge, and the
+/// edge is a staircase: order 1.
 pub(super) const MINDLIN: Case = Case {
     name: "Mindlin: no slip, ν = 0.3",
     source: "Mindlin (1949); Johnson (1985), eqs. 7.36–7.38",
@@ -117,9 +118,10 @@ pub(super) const MINDLIN: Case = Case {
     },
 };
 
-/// The push is removed and applied again, in `a/Δx` increments; neither the states nor the frictional energy depend on
-/// them. The work of the force over the closed cycle is summed by chords, which shorten the loop by the square of the
-/// increments. For displacement and loss the order 3, from the edges of stick and slip, still dominates.
+/// The push is removed and applied again, in `a/Δx` increments; neither the states nor the frictional energy
+/// depend on them. The work of the force over the closed cycle is summed by chords, which shorten the loop by
+/// the square of the increments. For displacement and loss the order 3, from the edges of stick and slip,
+/// still dominates.
 pub(super) const HYSTERESIS: Case = Case {
     name: "hysteresis: Q = ±0.9 μW",
     source: "Mindlin & Deresiewicz (1953); Johnson (1985), section 7.4",

@@ -64,9 +64,9 @@ impl Sphere {
     }
 }
 
-/// A sphere is pressed in, withdrawn, and pressed in further, on a body with isotropic and kinematic hardening. The work of
-/// the pressure is the elastic energy plus that stored in the residual stress plus the plastic work, to round-off with the
-/// trapezoidal rule.
+/// A sphere is pressed in, withdrawn, and pressed in further, on a body with isotropic and kinematic
+/// hardening. The work of the pressure is the elastic energy plus that stored in the residual stress plus the
+/// plastic work, to round-off with the trapezoidal rule.
 pub(super) const ENERGY: Case = Case {
     name: "plastic flow: work over load, unload, reload",
     source: "W = ½ ΔA Σ p Cp − ½ ∫ ε:Kε + ∫ σ:dε",
@@ -149,9 +149,9 @@ pub(super) const ONSET: Case = Case {
     },
 };
 
-/// A sphere on a periodic body, pressed in by several loads in turn: largest pressure, plastic strain and range of r, each
-/// as the worst of four loads. The error of the layers decreases with their number; with 64 the layers are those of the
-/// other program.
+/// A sphere on a periodic body, pressed in by several loads in turn: largest pressure, plastic strain and
+/// range of r, each as the worst of four loads. The error of the layers decreases with their number; with 64
+/// the layers are those of the other program.
 pub(super) const SPHERE: Case = Case {
     name: "plastic flow: sphere, load by load",
     source: "an independent program at 64 layers",
@@ -213,8 +213,8 @@ fn period_of_spheres(layers: usize) -> Result<PlasticContact> {
     sphere.contact(J2::new(Hardening::perfect(YIELD)?), PlasticParams::new().with_tolerance(1e-6))
 }
 
-/// The same sphere to 8 times its load of first yield in equal steps: the error of the largest pressure is of first order
-/// in them.
+/// The same sphere to 8 times its load of first yield in equal steps: the error of the largest pressure is of
+/// first order in them.
 pub(super) const STEPS: Case = Case {
     name: "plastic flow: steps of the load",
     source: "an independent program",
@@ -284,7 +284,8 @@ struct MovingStress {
 }
 
 impl MovingStress {
-    /// Creates the stress of a pressure. The limits for ever longer waves replace the mean, which would constrain the body.
+    /// Creates the stress of a pressure. The limits for ever longer waves replace the mean, which would
+    /// constrain the body.
     fn under(volume: &mut Volume, pressure: Field, [xx, yy]: [f64; 2]) -> Self {
         let mean = pressure.mean().unwrap_or(0.0);
         let mut stress = volume.elastic(&Tractions::frictionless(pressure));
@@ -311,7 +312,8 @@ impl Loading for MovingStress {
 struct Pass {
     /// Means over x of the accumulated strain added by the pass, as the largest over layers and y.
     flow: f64,
-    /// G times the displacement of the surface along the direction of travel, +x, relative to the deep material.
+    /// G times the displacement of the surface along the direction of travel, +x, relative to the deep
+    /// material.
     shift: f64,
 }
 
@@ -356,9 +358,9 @@ fn perfect() -> Result<J2> {
     Ok(J2::new(Hardening::perfect(3f64.sqrt())?))
 }
 
-/// A Hertzian line load rolls repeatedly over a body without hardening: below 4 k it shakes down, above it ratchets. The
-/// limit is that of the theory. The rates, relative to the travel of the load, are those of an independent program with the
-/// same cells and steps.
+/// A Hertzian line load rolls repeatedly over a body without hardening: below 4 k it shakes down, above it
+/// ratchets. The limit is that of the theory. The rates, relative to the travel of the load, are those of an
+/// independent program with the same cells and steps.
 pub(super) const LINE: Case = Case {
     name: "plastic flow: rolling line contact",
     source: "Johnson (1962); Merwin & Johnson (1963)",
@@ -403,7 +405,8 @@ pub(super) const RESIDUAL: Case = Case {
     },
 };
 
-/// The same load at 5 k on a body with Prager's hardening of 100 k: ratchetting ends, and cyclic flow remains.
+/// The same load at 5 k on a body with Prager's hardening of 100 k: ratchetting ends, and cyclic flow
+/// remains.
 pub(super) const KINEMATIC: Case = Case {
     name: "plastic flow: rolling, kinematic hardening",
     source: "an independent program",
@@ -417,7 +420,8 @@ pub(super) const KINEMATIC: Case = Case {
     },
 };
 
-/// A Hertzian point load rolls repeatedly: the limit lies between 4.4 k, where flow ceases, and 5.5 k, where it continues.
+/// A Hertzian point load rolls repeatedly: the limit lies between 4.4 k, where flow ceases, and 5.5 k, where
+/// it continues.
 pub(super) const POINT: Case = Case {
     name: "plastic flow: rolling point contact",
     source: "Ponter, Hearle & Johnson (1985): 4.68 k",

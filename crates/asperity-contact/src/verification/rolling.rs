@@ -9,10 +9,11 @@ use crate::material::{Compliances, Material};
 use crate::operator::{Boundary, Operators};
 use crate::solver::{Bounds, Control, Creep, Friction, Rolling, RollingSolution, solve_rolling};
 
-/// A driven wheel on a periodic grid one cell wide. The shear is μ times the pressure of the contact minus that of a line
-/// of half width c at its leading edge, a distance d = a − c from the middle. Both are curved by their own images like the
-/// contact of [`smooth::LINE`], so that ξ = μd/R remains, with the R of the cylinder: the difference of their strains in
-/// the stick area. A creepage across the rolling direction gives the same with a compliance of 1/E* + 1/N*.
+/// A driven wheel on a periodic grid one cell wide. The shear is μ times the pressure of the contact minus
+/// that of a line of half width c at its leading edge, a distance d = a − c from the middle. Both are curved
+/// by their own images like the contact of [`smooth::LINE`], so that ξ = μd/R remains, with the R of the
+/// cylinder: the difference of their strains in the stick area. A creepage across the rolling direction gives
+/// the same with a compliance of 1/E* + 1/N*.
 ///
 /// Per step, material is strained from cell to cell, against the shear in one of the two: order 1.
 pub(super) const CARTER: Case = Case {
@@ -74,14 +75,15 @@ fn carter() -> Result<Vec<Check>> {
     })
 }
 
-/// Infinite friction: without slip, force and moment are linear in creepage and spin, with c = √(ab) and the semi-axes a
-/// along the rolling direction and b across it:
+/// Infinite friction: without slip, force and moment are linear in creepage and spin, with c = √(ab) and the
+/// semi-axes a along the rolling direction and b across it:
 ///
 /// ```text
 /// Q_x = c² G C11 ξx      Q_y = c² G (C22 ξy + c C23 φ)      M = c³ G (−C23 ξy + c C33 φ)
 /// ```
 ///
-/// Their work per length of rolling is the frictional energy, all of it at the trailing edge. The work of C23 cancels:
+/// Their work per length of rolling is the frictional energy, all of it at the trailing edge. The work of C23
+/// cancels:
 ///
 /// ```text
 /// ξ·Q + φM = c² G (C11 ξx² + C22 ξy² + c² C33 φ²)
@@ -166,8 +168,8 @@ fn creep_coefficients(ratio: f64, poisson: f64, n: usize) -> Result<[f64; 6]> {
 mod tests {
     use super::*;
 
-    /// The error of first order in the cells is subtracted. The remainder is the scatter of the edge, and the third digit
-    /// of the table.
+    /// The error of first order in the cells is subtracted. The remainder is the scatter of the edge, and the
+    /// third digit of the table.
     #[test]
     fn other_ellipses_have_kalkers_coefficients_too() {
         #[rustfmt::skip]

@@ -25,9 +25,9 @@ pub(super) fn rough_gap(grid: &Grid) -> Result<Field> {
     Ok(summit - heights)
 }
 
-/// A rough surface that yields: the softer it is, the closer is its area to W/H. The excess is that of contact edges with a
-/// pressure below H. For narrow edges, their width is the range 0 < δ − h − u < c₀H over the slope h′: order 1 in H/E*h′.
-/// Before that, convergence is faster, because whole contacts are below H.
+/// A rough surface that yields: the softer it is, the closer is its area to W/H. The excess is that of
+/// contact edges with a pressure below H. For narrow edges, their width is the range 0 < δ − h − u < c₀H over
+/// the slope h′: order 1 in H/E*h′. Before that, convergence is faster, because whole contacts are below H.
 pub(super) const PLASTIC_LIMIT: Case =
     Case { name: "fully plastic: W = 0.2 H A₀", source: "Bowden & Tabor (1950)", checks: plastic_limit };
 
@@ -45,8 +45,9 @@ fn plastic_limit() -> Result<Vec<Check>> {
     })
 }
 
-/// The bodies store the work of the load. U = ∫ W dδ from first touch, by the trapezoidal rule, and W = dU/dδ, by central
-/// differences. Between the events at which a cell comes into contact W is linear in δ: both are of order 2.
+/// The bodies store the work of the load. U = ∫ W dδ from first touch, by the trapezoidal rule, and W =
+/// dU/dδ, by central differences. Between the events at which a cell comes into contact W is linear in δ:
+/// both are of order 2.
 pub(super) const WORK: Case =
     Case { name: "rough contact: work of the load", source: "Clapeyron's theorem", checks: work };
 
@@ -77,8 +78,8 @@ fn work() -> Result<Vec<Check>> {
     })
 }
 
-/// Three methods that share only the operator, and the solver of devices, on one rough contact. The direct one is exact. The bound is the tolerance of
-/// the others times the condition number of the contact.
+/// Three methods that share only the operator, and the solver of devices, on one rough contact. The direct
+/// one is exact. The bound is the tolerance of the others times the condition number of the contact.
 pub(super) const METHODS: Case = Case {
     name: "rough contact: three methods, device",
     source: "uniqueness of the contact",
@@ -107,7 +108,8 @@ fn methods() -> Result<Vec<Check>> {
     })
 }
 
-/// Largest difference between the pressures of the iterative methods and the direct one, over the largest pressure.
+/// Largest difference between the pressures of the iterative methods and the direct one, over the largest
+/// pressure.
 fn disagreement(operator: &mut dyn Operator, gap: &Field, hardness: Pascal) -> Result<f64> {
     let load = Control::Load(0.1 * MODULUS * SLOPE * operator.grid().area());
     let mut pressure = |method, device| {

@@ -18,8 +18,9 @@ fn dissimilar() -> Result<Compliances> {
     Compliances::new(&Material::elastic(3e9, 0.35)?, &Material::elastic(210e9, 0.3)?)
 }
 
-/// The displacement under a point load is f(θ)/r. In polar coordinates around the evaluated place, ∬ f(θ)/r r dr dθ is ∫
-/// f(θ) ℓ(θ) dθ, with the length ℓ of the ray in the loaded cell. Nothing is singular, not even on the cell itself.
+/// The displacement under a point load is f(θ)/r. In polar coordinates around the evaluated place, ∬ f(θ)/r r
+/// dr dθ is ∫ f(θ) ℓ(θ) dθ, with the length ℓ of the ray in the loaded cell. Nothing is singular, not even on
+/// the cell itself.
 pub(super) const COEFFICIENTS: Case = Case {
     name: "nine coefficients: quadrature",
     source: "Boussinesq, Cerruti: Johnson (1985), sections 3.2 and 3.6",
@@ -66,7 +67,8 @@ fn coefficients() -> Result<Vec<Check>> {
     )
 }
 
-/// ∫ f(cos θ, sin θ) ℓ(θ) dθ around the point `at`, over the cell at the origin; θ is the direction from source to point.
+/// ∫ f(cos θ, sin θ) ℓ(θ) dθ around the point `at`, over the cell at the origin; θ is the direction from
+/// source to point.
 fn over_rays(at: [Metre; 2], f: fn(f64, f64) -> f64) -> f64 {
     let half = PITCH.map(|pitch| 0.5 * pitch);
     let length = |direction: [f64; 2]| {

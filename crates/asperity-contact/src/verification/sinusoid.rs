@@ -12,8 +12,9 @@ use crate::surface::Form;
 
 const SOURCE: &str = "Westergaard (1939); Johnson (1985), eqs. 13.2–13.8";
 
-/// A quarter, a half and three quarters of the surface in contact: the edge lies between two cells on every grid. Elsewhere
-/// the error jumps with the position of the edge in its cell, and four grids would show no order.
+/// A quarter, a half and three quarters of the surface in contact: the edge lies between two cells on every
+/// grid. Elsewhere the error jumps with the position of the edge in its cell, and four grids would show no
+/// order.
 pub(super) const QUARTER: Case =
     Case { name: "Westergaard: contact of 1/4", source: SOURCE, checks: || partial(0.25) };
 pub(super) const HALF: Case =
@@ -53,7 +54,8 @@ fn full() -> Result<Vec<Check>> {
     })
 }
 
-/// The wave at p̄ = `closure` p*, its grid of `cells` cells per wavelength, the solution and the exact pressure.
+/// The wave at p̄ = `closure` p*, its grid of `cells` cells per wavelength, the solution and the exact
+/// pressure.
 fn solve(closure: f64, cells: usize) -> Result<(Westergaard, Grid, Solution, Field)> {
     let mut wave = Westergaard { amplitude: 0.02, wavelength: 2.0, modulus: 5.0, mean_pressure: 0.0 };
     wave.mean_pressure = closure * wave.full_contact_pressure();

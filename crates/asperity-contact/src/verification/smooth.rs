@@ -19,8 +19,9 @@ pub(super) const LINE_HALF_WIDTH: Metre = 0.5;
 /// Period of the cylinders, in [`LINE_HALF_WIDTH`].
 const PERIOD: usize = 32;
 
-/// The apex is where four cells meet, and the peak pressure is that of an adjacent cell. Of its error, about (Δx/2a)² is
-/// due to the distance to the apex. In the energy at a given load the contributions of orders 2 and 3 have similar size.
+/// The apex is where four cells meet, and the peak pressure is that of an adjacent cell. Of its error, about
+/// (Δx/2a)² is due to the distance to the apex. In the energy at a given load the contributions of orders 2
+/// and 3 have similar size.
 pub(super) const SPHERE: Case =
     Case { name: "Hertz: sphere", source: "Hertz (1882); Johnson (1985), eqs. 4.22–4.24", checks: sphere };
 
@@ -56,8 +57,8 @@ pub(super) fn sphere_gap(grid: &Grid) -> Result<Field> {
     Ok(-Form::Sphere { radius: RADIUS }.on(grid)?.into_heights())
 }
 
-/// An ellipsoid with radii of curvature in the ratio 1 to 4, with equal numbers of cells along each semi-axis of the
-/// contact.
+/// An ellipsoid with radii of curvature in the ratio 1 to 4, with equal numbers of cells along each semi-axis
+/// of the contact.
 pub(super) const ELLIPSOID: Case = Case {
     name: "Hertz: ellipsoid, radii 1 : 4",
     source: "Hertz (1882); Johnson (1985), eqs. 4.25–4.32",
@@ -92,8 +93,8 @@ fn ellipsoid() -> Result<Vec<Check>> {
     })
 }
 
-/// A cylinder on a boundary that is periodic along its axis and free across: a line contact without ends or neighbours. The
-/// approach is relative to r₀, the width of the grid. Everything is uniform along the line.
+/// A cylinder on a boundary that is periodic along its axis and free across: a line contact without ends or
+/// neighbours. The approach is relative to r₀, the width of the grid. Everything is uniform along the line.
 pub(super) const LINE_ALONE: Case = Case {
     name: "Hertz: cylinder, periodic along it alone",
     source: "Johnson (1985), eqs. 4.43–4.45",
@@ -135,9 +136,9 @@ fn line_alone() -> Result<Vec<Check>> {
 
 /// A cylinder on a periodic grid one cell wide, with the influence of its neighbours.
 ///
-/// The other lines of contact, a period L away, act like a curvature: (π/L) cot(πt/L) = 1/t − π²t/3L² − …, where the second
-/// term is linear in x for any pressure. The contact is Hertz's with R′ = R (1 − π²a²/6L²), apart from terms of
-/// (a/L)⁴ = 1e-6.
+/// The other lines of contact, a period L away, act like a curvature: (π/L) cot(πt/L) = 1/t − π²t/3L² − …,
+/// where the second term is linear in x for any pressure. The contact is Hertz's with R′ = R (1 − π²a²/6L²),
+/// apart from terms of (a/L)⁴ = 1e-6.
 pub(super) const LINE: Case =
     Case { name: "Hertz: cylinder, period 32 a", source: "Johnson (1985), eqs. 4.43–4.45", checks: line };
 

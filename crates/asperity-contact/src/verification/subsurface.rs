@@ -13,9 +13,9 @@ use crate::stress::Stress;
 use crate::subsurface::{Subsurface, Tractions};
 use crate::surface::Form;
 
-/// A rectangle of n × n cells under uniform tractions: superposition leaves no error. The comparison with n × n point loads
-/// is the midpoint rule, of order 2. It uses their tractions on planes of constant depth, and the sum of their normal
-/// stresses, which are the simplest of Boussinesq's and Cerruti's equations.
+/// A rectangle of n × n cells under uniform tractions: superposition leaves no error. The comparison with n ×
+/// n point loads is the midpoint rule, of order 2. It uses their tractions on planes of constant depth, and
+/// the sum of their normal stresses, which are the simplest of Boussinesq's and Cerruti's equations.
 pub(super) const LOADED_RECTANGLE: Case = Case {
     name: "Love: stress under a loaded rectangle",
     source: "Love (1929); Johnson (1985), eqs. 3.19, 3.76",
@@ -67,16 +67,17 @@ fn apart(a: Stress, b: Stress) -> f64 {
     a.components().iter().zip(b.components()).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
 
-/// The pressure is that of the solver, uniform in each cell. Under the surface its steps are smoothed: order 2.
+/// The pressure is that of the solver, uniform in each cell. Under the surface its steps are smoothed: order
+/// 2.
 pub(super) const SPHERE: Case = Case {
     name: "Hertz: stress under a sphere",
     source: "Hamilton & Goodman (1966); Johnson (1985), section 3.4",
     checks: || sliding(0.0, second(1e-3)),
 };
 
-/// The most stressed point below a sphere in full slip, q = p/4, which has moved upwards and in the direction of the
-/// traction. It is searched at the centres of cells only. If it lies between them, its depth is that of its neighbour, with
-/// an error proportional to Δx.
+/// The most stressed point below a sphere in full slip, q = p/4, which has moved upwards and in the direction
+/// of the traction. It is searched at the centres of cells only. If it lies between them, its depth is that
+/// of its neighbour, with an error proportional to Δx.
 pub(super) const SLIDING_SPHERE: Case = Case {
     name: "Hamilton: stress under a sliding sphere, friction 0.25",
     source: "Hamilton & Goodman (1966); Hamilton (1983)",
@@ -128,7 +129,8 @@ fn sliding(friction: f64, its_depth: Expected) -> Result<Vec<Check>> {
     })
 }
 
-/// The largest von Mises stress under `contact`, over p₀, and its depth over a, by a search that halves its steps.
+/// The largest von Mises stress under `contact`, over p₀, and its depth over a, by a search that halves its
+/// steps.
 fn most_stressed(contact: &SlidingSphere) -> [f64; 2] {
     let (a, p0) = (contact.normal.contact_radius(), contact.normal.peak_pressure());
     let at = |[x, z]: [f64; 2]| contact.stress([x * a, 0.0], z * a).von_mises() / p0;

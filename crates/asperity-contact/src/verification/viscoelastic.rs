@@ -51,7 +51,8 @@ fn wave() -> Result<Vec<Check>> {
     })
 }
 
-/// A cylinder, while the body creeps over a third of its contact and over all of it. Cells at the edges are inside or outside.
+/// A cylinder, while the body creeps over a third of its contact and over all of it. Cells at the edges are
+/// inside or outside.
 pub(super) const CYLINDER: Case =
     Case { name: "Viscoelastic body: sliding cylinder", source: "Hunter (1961)", checks: cylinder };
 
@@ -88,7 +89,8 @@ fn cylinder() -> Result<Vec<Check>> {
     })
 }
 
-/// A cylinder that passes over a body which has not been touched before. In the end it slides as if it always had.
+/// A cylinder that passes over a body which has not been touched before. In the end it slides as if it always
+/// had.
 pub(super) const PASS: Case =
     Case { name: "Viscoelastic body: cylinder in a pass", source: "Hunter (1961)", checks: pass };
 
@@ -150,7 +152,8 @@ fn fast() -> Result<Vec<Check>> {
     })
 }
 
-/// A sphere under a load that comes at once and stays: at once, after half of the retardation time, and after two of them.
+/// A sphere under a load that comes at once and stays: at once, after half of the retardation time, and after
+/// two of them.
 pub(super) const CREEP: Case = Case {
     name: "Viscoelastic body: sphere under a step of load",
     source: "Lee, Radok (1960)",

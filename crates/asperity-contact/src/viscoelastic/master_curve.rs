@@ -11,7 +11,8 @@ const BEYOND: f64 = 1.0;
 /// Most times of a fit.
 const MAX_TERMS: f64 = 200.0;
 
-/// A point of a master curve: storage and loss modulus of a body under tension at a frequency, reduced to one temperature.
+/// A point of a master curve: storage and loss modulus of a body under tension at a frequency, reduced to one
+/// temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MasterPoint {
     /// Frequency, Hz.
@@ -31,13 +32,14 @@ pub struct MasterFit {
     pub errors: [f64; 2],
 }
 
-/// Fits a body with this `relaxed` modulus to a master curve: moduli ≥ 0 at `per_decade` times a decade, by least squares of the relative
-/// errors of E′ and E″ (Lawson and Hanson, Solving Least Squares Problems, 1974). The times reach a decade beyond the data.
+/// Fits a body with this `relaxed` modulus to a master curve: moduli ≥ 0 at `per_decade` times a decade, by
+/// least squares of the relative errors of E′ and E″ (Lawson and Hanson, Solving Least Squares Problems,
+/// 1974). The times reach a decade beyond the data.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a frequency or a modulus that is not finite and > 0, a `relaxed` modulus above the least E′, and a number of
-/// times a decade that is not > 0 or gives more than 200 times; [`Error::Unsupported`] for fewer than three points, or frequencies that do
-/// not rise.
+/// [`Error::OutOfRange`] for a frequency or a modulus that is not finite and > 0, a `relaxed` modulus above
+/// the least E′, and a number of times a decade that is not > 0 or gives more than 200 times;
+/// [`Error::Unsupported`] for fewer than three points, or frequencies that do not rise.
 pub fn fit_master_curve(points: &[MasterPoint], relaxed: Pascal, per_decade: f64) -> Result<MasterFit> {
     if points.len() < 3 {
         return Err(Error::Unsupported("a master curve of fewer than three points"));

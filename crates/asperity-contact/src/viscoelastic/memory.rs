@@ -9,14 +9,16 @@ use crate::viscoelastic::series::Creep;
 
 /// Memory of the loads of a body, or of a pair at full overlap.
 ///
-/// For each retardation time a field z on all of its cells, with `ρ ż = Lp − z`, where L is the elastic half-space of a unit modulus. The
-/// displacement is `J_g Lp + Σ J_k z_k`. In a step of the time Δt, in which Lp changes linearly, with e = e^(−Δt/ρ) and φ = (1 − e)ρ/Δt,
+/// For each retardation time a field z on all of its cells, with `ρ ż = Lp − z`, where L is the elastic
+/// half-space of a unit modulus. The displacement is `J_g Lp + Σ J_k z_k`. In a step of the time Δt, in which
+/// Lp changes linearly, with e = e^(−Δt/ρ) and φ = (1 − e)ρ/Δt,
 ///
 /// ```text
 /// z ← e z + (φ − e) Lp_before + (1 − φ) Lp
 /// ```
 ///
-/// so that the step is an elastic contact with another compliance on another gap. Without a step of time the body answers as glass.
+/// so that the step is an elastic contact with another compliance on another gap. Without a step of time the
+/// body answers as glass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CreepMemory {
     creep: Creep,
@@ -33,7 +35,8 @@ impl CreepMemory {
         Self { creep, delayed, elastic: Field::zeros(shape) }
     }
 
-    /// Restores a body from the field z of each term of its `creep` compliance, and Lp at the end of the last step.
+    /// Restores a body from the field z of each term of its `creep` compliance, and Lp at the end of the last
+    /// step.
     ///
     /// # Panics
     /// If there is not a field for each term.
@@ -58,8 +61,8 @@ impl CreepMemory {
         self.creep.glassy + terms.sum::<f64>()
     }
 
-    /// Computes the displacement at the end of a step of the time `duration` in which the body bears no more than before:
-    /// `Σ J_k [e_k z_k + (φ_k − e_k) Lp]`, m.
+    /// Computes the displacement at the end of a step of the time `duration` in which the body bears no more
+    /// than before: `Σ J_k [e_k z_k + (φ_k − e_k) Lp]`, m.
     pub fn history(&self, duration: Second) -> Field {
         let mut history = Field::zeros(self.elastic.raw_dim());
         for (term, delayed) in self.creep.terms.iter().zip(&self.delayed) {
@@ -83,7 +86,8 @@ impl CreepMemory {
         self.advance(Field::zeros(self.elastic.raw_dim()), duration);
     }
 
-    /// Advances by the time `duration`, at the end of which the elastic half-space of a unit modulus would be displaced by `elastic`, Pa m.
+    /// Advances by the time `duration`, at the end of which the elastic half-space of a unit modulus would be
+    /// displaced by `elastic`, Pa m.
     ///
     /// # Panics
     /// If the field has another shape than the body.
@@ -108,12 +112,13 @@ fn weights(duration: Second, time: Second) -> [f64; 3] {
     [kept, share - kept, 1.0 - share]
 }
 
-/// Solves the contact at the end of a step of the time `duration`, and advances the `memory` of the bodies. The `operator` is that of elastic
-/// half-spaces with the composite `modulus`, on the grid of the memory. A load or an approach that changes at once has the duration 0.
-/// `start` is a pressure near the solution.
+/// Solves the contact at the end of a step of the time `duration`, and advances the `memory` of the bodies.
+/// The `operator` is that of elastic half-spaces with the composite `modulus`, on the grid of the memory. A
+/// load or an approach that changes at once has the duration 0. `start` is a pressure near the solution.
 ///
 /// # Errors
-/// [`Error::OutOfRange`](crate::Error::OutOfRange) for a time that is not finite and ≥ 0; the errors of [`solve_normal`](crate::solver::solve_normal).
+/// [`Error::OutOfRange`](crate::Error::OutOfRange) for a time that is not finite and ≥ 0; the errors of
+/// [`solve_normal`](crate::solver::solve_normal).
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -138,8 +143,9 @@ pub fn solve_in_time(
     Ok(solution)
 }
 
-/// Solves the contact at the end of a step in which the bodies answer with this compliance, beyond their displacement by earlier loads.
-/// Returns it with the displacement Lp of the elastic half-space of a unit modulus.
+/// Solves the contact at the end of a step in which the bodies answer with this compliance, beyond their
+/// displacement by earlier loads. Returns it with the displacement Lp of the elastic half-space of a unit
+/// modulus.
 #[expect(clippy::too_many_arguments, reason = "the contact, the answer of the bodies, and who looks on")]
 pub(crate) fn solve_step(
     operator: &mut dyn Operator,
@@ -151,7 +157,8 @@ pub(crate) fn solve_step(
     params: &Params,
     watch: &dyn Watch,
 ) -> Result<(Solution, Field)> {
-    // The pressures of the elastic contact are those of this one times its compliance over that of the operator.
+    // The pressures of the elastic contact are those of this one times its compliance over that of the
+    // operator.
     let scale = compliance * modulus;
     let gap = history + &*in_rows(initial_gap);
     let control = match control {

@@ -15,7 +15,8 @@ use crate::units::{Dimension, Metre, MetrePerSecond};
 use crate::viscoelastic::series::Creep;
 use crate::viscoelastic::table::{ElasticCell, MovingCell};
 
-/// Two bodies in steady sliding: their displacement u = C p in the frame of the contact, which moves along x over a viscoelastic body.
+/// Two bodies in steady sliding: their displacement u = C p in the frame of the contact, which moves along x
+/// over a viscoelastic body.
 ///
 /// ```text
 /// u(x) = J_g (Lp)(x) + Σ J_k (1/λ_k) ∫₀^∞ e^(−ξ/λ_k) (Lp)(x + ξ) dξ,   λ_k = vρ_k
@@ -37,11 +38,13 @@ pub struct SteadySliding {
 }
 
 impl SteadySliding {
-    /// Creates the operator on `grid` of bodies with this `creep` compliance under pressure, that of both together, whose contact
-    /// moves at `speed` along x over the body that creeps. A speed below 0 is one along −x.
+    /// Creates the operator on `grid` of bodies with this `creep` compliance under pressure, that of both
+    /// together, whose contact moves at `speed` along x over the body that creeps. A speed below 0 is one
+    /// along −x.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a speed that is not finite; [`Error::Unsupported`] for a boundary that is periodic along x alone.
+    /// [`Error::OutOfRange`] for a speed that is not finite; [`Error::Unsupported`] for a boundary that is
+    /// periodic along x alone.
     pub fn new(grid: Grid, boundary: Boundary, creep: &Creep, speed: MetrePerSecond) -> Result<Self> {
         check_in(Dimension::Speed, "speed", speed, speed.is_finite(), "a finite speed")?;
         let kernels = match boundary {
@@ -104,8 +107,8 @@ impl SteadySliding {
         self.preconditioner.apply(displacement, pressure);
     }
 
-    /// Computes the drag, `−ΔA Σ p ∂u/∂x` for a motion along +x, > 0 where energy is lost, N. The slope ∂u/∂x is its mean over a cell; its
-    /// operator is odd for elastic bodies, whose drag is 0 but for rounding.
+    /// Computes the drag, `−ΔA Σ p ∂u/∂x` for a motion along +x, > 0 where energy is lost, N. The slope ∂u/∂x
+    /// is its mean over a cell; its operator is odd for elastic bodies, whose drag is 0 but for rounding.
     pub fn drag(&mut self, pressure: &Field) -> f64 {
         self.convolutions += 1.0;
         let Self { slope, field, grid, speed: direction, .. } = self;
@@ -142,7 +145,8 @@ impl Kernels {
             displacement: SkewKernel::from_transform(grid.shape, |kx, ky| {
                 if zero(kx, ky) { 0.0.into() } else { response(kx, ky) }
             }),
-            // Only the even part of the shortest wave of an even number of cells is known, and it has no slope.
+            // Only the even part of the shortest wave of an even number of cells is known, and it has no
+            // slope.
             slope: SkewKernel::from_transform(grid.shape, |kx, ky| {
                 if zero(kx, ky) || 2 * kx == nx {
                     0.0.into()
@@ -219,7 +223,8 @@ impl Kernels {
     }
 }
 
-/// Puts a table at the offsets −nx < i < nx, 0 ≤ j < ny on a cyclic grid; mirrored along x, and times a factor, for a contact that moves `backwards`.
+/// Puts a table at the offsets −nx < i < nx, 0 ≤ j < ny on a cyclic grid; mirrored along x, and times a
+/// factor, for a contact that moves `backwards`.
 fn cyclic(table: &Field, padded: [usize; 2], backwards: bool, factor: f64, boundary: Boundary) -> Field {
     let nx = table.nrows().div_ceil(2);
     let mut values = Field::zeros(padded);

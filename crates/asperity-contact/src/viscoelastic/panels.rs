@@ -19,8 +19,8 @@ pub(super) struct Panel {
     pub(super) end: Metre,
 }
 
-/// Returns the points t of a panel, each with the weights of the values there in `(1/λ) ∫ e^(−t/λ) f(t) dt` for each of the `decays`, whose
-/// second number is λ. They are exact for polynomials, whatever λ.
+/// Returns the points t of a panel, each with the weights of the values there in `(1/λ) ∫ e^(−t/λ) f(t) dt`
+/// for each of the `decays`, whose second number is λ. They are exact for polynomials, whatever λ.
 pub(super) fn lagrange_weights(panel: Panel, decays: &[[f64; 2]]) -> Vec<(Metre, Vec<f64>)> {
     let Panel { begin, end } = panel;
     let half = 0.5 * (end - begin);

@@ -31,7 +31,8 @@ pub struct CreepTerm {
     pub time: Second,
 }
 
-/// Creep compliance `J(t) = J_g + Σ J_k (1 − e^(−t/ρ_k))`, of a body under tension, or of a pair under pressure.
+/// Creep compliance `J(t) = J_g + Σ J_k (1 − e^(−t/ρ_k))`, of a body under tension, or of a pair under
+/// pressure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Creep {
     /// The glassy compliance J_g, with which a body answers at once.
@@ -44,7 +45,8 @@ impl Relaxation {
     /// Creates the modulus of a body with this `relaxed` modulus E₀, which it has after a long time.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a modulus or a time that is not finite and > 0; [`Error::Unsupported`] for two equal times.
+    /// [`Error::OutOfRange`] for a modulus or a time that is not finite and > 0; [`Error::Unsupported`] for
+    /// two equal times.
     pub fn new(relaxed: Pascal, terms: impl IntoIterator<Item = RelaxationTerm>) -> Result<Self> {
         let mut terms: Vec<RelaxationTerm> = terms.into_iter().collect();
         let is_valid = |value: f64| value > 0.0 && value.is_finite();
@@ -90,7 +92,8 @@ impl Relaxation {
 
     /// Returns the creep compliance of the same body: `J(s) E(s) = 1` for every complex frequency s.
     ///
-    /// The −1/ρ_k are the zeros of E(s) = E₀ + Σ E_k sτ_k/(1 + sτ_k): one for each time, with ρ_k between τ_k and the next larger time.
+    /// The −1/ρ_k are the zeros of E(s) = E₀ + Σ E_k sτ_k/(1 + sτ_k): one for each time, with ρ_k between τ_k
+    /// and the next larger time.
     pub fn creep(&self) -> Creep {
         let term = |index: usize| {
             let rate = self.zero(index);
@@ -101,11 +104,13 @@ impl Relaxation {
         Creep { glassy: 1.0 / self.glassy(), terms: (0..self.terms.len()).map(term).collect() }
     }
 
-    /// Returns the rate r = 1/ρ at which E(−r) = 0 below the rate 1/τ of the term `index`, and above that of the term before.
+    /// Returns the rate r = 1/ρ at which E(−r) = 0 below the rate 1/τ of the term `index`, and above that of
+    /// the term before.
     fn zero(&self, index: usize) -> Rate {
         let upper = self.terms[index].time;
         let lower = index.checked_sub(1).map(|before| self.terms[before].time);
-        // E(−r) falls from +∞, or E₀, to −∞. The rate is sought from the end that is nearer, so that its distance has all digits.
+        // E(−r) falls from +∞, or E₀, to −∞. The rate is sought from the end that is nearer, so that its
+        // distance has all digits.
         let half = 0.5 * (1.0 / upper - lower.map_or(0.0, |lower| 1.0 / lower));
         let (pole, sign) = if self.at(Rate { pole: lower, distance: half }) < 0.0 {
             (lower, 1.0)

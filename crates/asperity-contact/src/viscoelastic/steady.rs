@@ -8,7 +8,8 @@ use crate::units::{Dimension, Newton};
 use crate::viscoelastic::operator::SteadySliding;
 use asperity_base::math::active_set::offset_for_sum;
 
-/// Residual below which the predicted sets are nearly right: all cells on the wrong side change sides, or one alone.
+/// Residual below which the predicted sets are nearly right: all cells on the wrong side change sides, or one
+/// alone.
 const NEAR: f64 = 3e-2;
 /// Rounds in which the number of cells on the wrong side need not fall.
 const PATIENCE: usize = 4;
@@ -31,17 +32,18 @@ pub struct SteadyContact {
     pub drag: Newton,
 }
 
-/// Solves the contact of bodies over an undeformed gap h that slide steadily: p ≥ 0, g = h + Cp − δ ≥ 0, and p = 0 where g > 0. `start`
-/// is a pressure near the solution, such as that at a neighbouring speed.
+/// Solves the contact of bodies over an undeformed gap h that slide steadily: p ≥ 0, g = h + Cp − δ ≥ 0, and
+/// p = 0 where g > 0. `start` is a pressure near the solution, such as that at a neighbouring speed.
 ///
-/// Newton's method on predicted sets: the gap of the cells in contact is closed by the generalised method of minimal residuals,
-/// preconditioned by the inverse of the harmonics; under a load the multiplier is eliminated. Far from the solution all cells are
-/// predicted from pressure and gap. Near it the cells on the wrong side change sides, and once their number has not fallen in some
-/// rounds, the last one alone, which ends for every matrix of positive principal minors (Júdice and Pires, Comput. Oper. Res. 21, 587 (1994)).
+/// Newton's method on predicted sets: the gap of the cells in contact is closed by the generalised method of
+/// minimal residuals, preconditioned by the inverse of the harmonics; under a load the multiplier is
+/// eliminated. Far from the solution all cells are predicted from pressure and gap. Near it the cells on the
+/// wrong side change sides, and once their number has not fallen in some rounds, the last one alone, which
+/// ends for every matrix of positive principal minors (Júdice and Pires, Comput. Oper. Res. 21, 587 (1994)).
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a load or an approach that is not finite, [`Error::PeriodicFullContact`], [`Error::NotConverged`],
-/// [`Error::Interrupted`].
+/// [`Error::OutOfRange`] for a load or an approach that is not finite, [`Error::PeriodicFullContact`],
+/// [`Error::NotConverged`], [`Error::Interrupted`].
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -206,7 +208,8 @@ impl<'a> Rounds<'a> {
         cells.map(move |((p, h), u)| p + (approach - h - u) / compliance)
     }
 
-    /// Predicts which cells touch: those whose pressure stays above 0 when they close the gap, at the approach at which they bear the load.
+    /// Predicts which cells touch: those whose pressure stays above 0 when they close the gap, at the
+    /// approach at which they bear the load.
     fn predict(&self, caution: f64, approach: f64) -> Vec<bool> {
         let predicted: Vec<f64> = self.closing(caution * self.operator.self_influence(), approach).collect();
         let offset = self.sum().map_or(0.0, |sum| {
@@ -237,7 +240,8 @@ impl<'a> Rounds<'a> {
         changed.iter().for_each(|cell| sets.touching[*cell] = !sets.touching[*cell]);
     }
 
-    /// Closes the gap of the cells that touch, under the load, roughly far from the solution unless `is_exact`.
+    /// Closes the gap of the cells that touch, under the load, roughly far from the solution unless
+    /// `is_exact`.
     fn close(&mut self, touching: &[bool], residual: &Residual, tolerance: f64, is_exact: bool) {
         let cells: Vec<usize> = (0..touching.len()).filter(|cell| touching[*cell]).collect();
         let count = cells.len() as f64;
@@ -344,7 +348,8 @@ impl<'a> Response<'a> {
         self.image(pressure, SteadySliding::displace)
     }
 
-    /// Returns an approximate pressure under a displacement; one that bears nothing in sum, where the load is given.
+    /// Returns an approximate pressure under a displacement; one that bears nothing in sum, where the load is
+    /// given.
     fn precondition(&mut self, displacement: &[f64]) -> Vec<f64> {
         let mut pressure = self.image(displacement, SteadySliding::precondition);
         if let Some((one, sum)) = &self.one {

@@ -1,4 +1,5 @@
-//! Displacement of a body along whose surface a loaded cell moves, where the body is not periodic along the motion.
+//! Displacement of a body along whose surface a loaded cell moves, where the body is not periodic along the
+//! motion.
 
 use crate::grid::Field;
 use crate::math::parallel;
@@ -13,12 +14,14 @@ const HALVINGS: i32 = 20;
 /// A function of x for a row of cells along y.
 type Row<'a> = dyn Fn(Metre) -> Option<Vec<f64>> + Sync + 'a;
 
-/// Computes `Σ J_k (1/λ_k) ∫₀^∞ e^(−ξ/λ_k) f(x + ξ) dξ` of a function f, given for a row of cells along y, for all cells at the offsets
-/// `(i Δx, j Δy)` with −nx < i < nx and 0 ≤ j < ny; the first row is that of i = 1 − nx. The `decays` are pairs of J_k and λ_k > 0. f is the
-/// sum of two functions, of which the first is not smooth at the edges of the loaded cell.
+/// Computes `Σ J_k (1/λ_k) ∫₀^∞ e^(−ξ/λ_k) f(x + ξ) dξ` of a function f, given for a row of cells along y,
+/// for all cells at the offsets `(i Δx, j Δy)` with −nx < i < nx and 0 ≤ j < ny; the first row is that of i =
+/// 1 − nx. The `decays` are pairs of J_k and λ_k > 0. f is the sum of two functions, of which the first is
+/// not smooth at the edges of the loaded cell.
 ///
-/// Ahead of the grid f is integrated on intervals that double in length. From there a cell adds to the cell before it: its own
-/// interval, on which f is a polynomial between Gauss' points, graded to the edges of the loaded cell.
+/// Ahead of the grid f is integrated on intervals that double in length. From there a cell adds to the cell
+/// before it: its own interval, on which f is a polynomial between Gauss' points, graded to the edges of the
+/// loaded cell.
 fn upstream([near, far]: [&Row<'_>; 2], [nx, ny]: [usize; 2], dx: Metre, decays: &[[f64; 2]]) -> Field {
     let both = |x: Metre| [near(x), far(x)].into_iter().flatten();
     let mut carried = vec![vec![0.0; ny]; decays.len()];
@@ -71,8 +74,8 @@ fn add<R: Iterator<Item = Vec<f64>>>(
     }
 }
 
-/// Panels of a cell that are graded to its corners and to its middle, where a table of displacements or slopes has the edges of the
-/// loaded cell.
+/// Panels of a cell that are graded to its corners and to its middle, where a table of displacements or
+/// slopes has the edges of the loaded cell.
 fn graded(dx: Metre) -> Vec<Panel> {
     let quarter: Vec<f64> = (0..=HALVINGS).rev().map(|n| 0.25 * 2f64.powi(-n)).collect();
     let of_half: Vec<f64> = [0.0]
@@ -86,14 +89,16 @@ fn graded(dx: Metre) -> Vec<Panel> {
     panels.map(|pair| Panel { begin: pair[0] * dx, end: pair[1] * dx }).collect()
 }
 
-/// Tables of a loaded cell that moves: displacement, and mean slope along x over a cell, at the offsets of [`upstream`].
+/// Tables of a loaded cell that moves: displacement, and mean slope along x over a cell, at the offsets of
+/// [`upstream`].
 pub(super) struct MovingCell {
     pub(super) displacement: Field,
     pub(super) slope: Field,
 }
 
 impl MovingCell {
-    /// Computes the tables of bodies with the `elastic` displacement at a unit modulus, the compliance `glassy` and these `decays`.
+    /// Computes the tables of bodies with the `elastic` displacement at a unit modulus, the compliance
+    /// `glassy` and these `decays`.
     pub(super) fn new(
         elastic: &ElasticCell<'_>,
         [nx, ny]: [usize; 2],
@@ -125,7 +130,8 @@ impl MovingCell {
     }
 }
 
-/// Elastic displacement of a row of cells along y at x, or its mean across each cell there; `None` if it is 0 everywhere.
+/// Elastic displacement of a row of cells along y at x, or its mean across each cell there; `None` if it is 0
+/// everywhere.
 type ElasticRow<'a> = dyn Fn(Metre, bool) -> Option<Vec<f64>> + Sync + 'a;
 
 /// Elastic displacement by a loaded cell in two parts.

@@ -155,8 +155,8 @@ fn elastic_bodies_have_no_drag() {
     }
 }
 
-/// The same stepped pressure on finer and finer grids: its power is a double integral that does not depend on them. The slope on the middle line
-/// of the cells comes to it with an order between 1 and 2.
+/// The same stepped pressure on finer and finer grids: its power is a double integral that does not depend on
+/// them. The slope on the middle line of the cells comes to it with an order between 1 and 2.
 #[test]
 fn the_drag_is_the_power_of_the_stepped_pressure_on_every_grid() {
     let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(5);

@@ -18,9 +18,11 @@ use crate::units::{MetrePerSecond, Pascal};
 use asperity_base::record::{Column, Record};
 use asperity_base::table::{self, Table};
 
-/// Something that is computed from each solved contact and changes nothing. Its struct is the table of the case.
+/// Something that is computed from each solved contact and changes nothing. Its struct is the table of the
+/// case.
 pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Sync + 'static {
-    /// Name of its table in a case and in a summary, of its rows in `NAME.csv`, and of its field files `fields/NAME-NNNN.h5`.
+    /// Name of its table in a case and in a summary, of its rows in `NAME.csv`, and of its field files
+    /// `fields/NAME-NNNN.h5`.
     const NAME: &'static str;
     /// Heading of its section on the page.
     const TITLE: &'static str;
@@ -28,7 +30,8 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     const MEANING: &'static str;
     /// Name of what it computes in the rows of `asperity check`: "conducts".
     const VERB: &'static str;
-    /// Whether it looks at whole load cycles, the passes of a motion or the cycles of a loading, instead of single contacts.
+    /// Whether it looks at whole load cycles, the passes of a motion or the cycles of a loading, instead of
+    /// single contacts.
     const OF_LOAD_CYCLES: bool = false;
 
     /// A row of its table: what it has computed from a contact, or from a contact along one axis.
@@ -47,8 +50,8 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     /// Prefixes of its columns in the table of a study, see [`Self::prefix`].
     const PREFIXES: &'static [&'static str];
 
-    /// Interval of the positions of a pass, or of the increments, updates or points, that are looked at: 1 for all of them; 0 for
-    /// the position of full overlap of each pass, or for the last contact.
+    /// Interval of the positions of a pass, or of the increments, updates or points, that are looked at: 1
+    /// for all of them; 0 for the position of full overlap of each pass, or for the last contact.
     fn every(&self) -> usize;
 
     /// Prepares the computation for the contacts of a pair of bodies.
@@ -57,7 +60,8 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     /// The reason why it is not possible.
     fn begin(&self, given: &Given<'_>) -> Result<Self::Observer>;
 
-    /// Returns what it has to remember of load cycles, of a capability [of load cycles](Self::OF_LOAD_CYCLES).
+    /// Returns what it has to remember of load cycles, of a capability [of load
+    /// cycles](Self::OF_LOAD_CYCLES).
     ///
     /// # Errors
     /// The reason why it is not possible.
@@ -92,20 +96,22 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     /// Returns reasons in the rows not to trust them.
     fn doubts(&self, rows: &[Self::Row], surroundings: &Surroundings) -> Vec<String>;
 
-    /// Returns the prefix of the columns of a row in the table of a study, one of [`Self::PREFIXES`]; empty for a column that needs
-    /// none.
+    /// Returns the prefix of the columns of a row in the table of a study, one of [`Self::PREFIXES`]; empty
+    /// for a column that needs none.
     fn prefix(row: &Self::Row, column: &str) -> &'static str;
 
-    /// Work of a contact for each cell and log₂ of their number, in units of a convolution with free boundary. `boundary` is the
-    /// work of one with the boundary of the case, and `digits` those of the tolerance over six.
+    /// Work of a contact for each cell and log₂ of their number, in units of a convolution with free
+    /// boundary. `boundary` is the work of one with the boundary of the case, and `digits` those of the
+    /// tolerance over six.
     fn effort(&self, boundary: f64, digits: f64) -> f64;
 
     /// Memory of the computation from a contact, bytes.
     fn memory(shape: [usize; 2]) -> f64;
 }
 
-/// Returns the rows that answer the question of the user: those of all points of a sweep, of all positions of the last pass of a motion, else
-/// of the last contact, because a loading history has other states at the same pressure.
+/// Returns the rows that answer the question of the user: those of all points of a sweep, of all positions of
+/// the last pass of a motion, else of the last contact, because a loading history has other states at the
+/// same pressure.
 pub fn answering<C: Capability>(rows: &[C::Row], is_sweep: bool) -> Vec<C::Row> {
     match rows.last().and_then(Row::pass) {
         _ if is_sweep => rows.to_vec(),
@@ -131,7 +137,8 @@ pub trait Row: Record + DeserializeOwned + Clone + PartialEq + Debug + Send + Sy
     /// Pass of a motion, from 1; `None` for a static contact.
     fn pass(&self) -> Option<usize>;
 
-    /// Last increment of a cycle of a loading, and the cycles that are done by then; `None` if the row is not that of a whole cycle.
+    /// Last increment of a cycle of a loading, and the cycles that are done by then; `None` if the row is not
+    /// that of a whole cycle.
     fn cycle(&self) -> Option<[usize; 2]> {
         None
     }
@@ -155,7 +162,8 @@ pub trait Observer: Send + Sync {
         contact: &ObservedContact<'_>,
     ) -> Result<(Vec<Self::Row>, Vec<NamedField>)>;
 
-    /// Computes the rows and the fields of a load cycle, of a capability [of load cycles](Capability::OF_LOAD_CYCLES).
+    /// Computes the rows and the fields of a load cycle, of a capability [of load
+    /// cycles](Capability::OF_LOAD_CYCLES).
     ///
     /// # Errors
     /// The reason why they cannot be computed.
@@ -170,7 +178,8 @@ pub trait Observer: Send + Sync {
 pub struct Place {
     /// Number of the pass, from 1; `None` for a static contact.
     pub pass: Option<usize>,
-    /// Number of the position, increment, update or point, from 1, but from 0 for updates; 1 for a contact in one step.
+    /// Number of the position, increment, update or point, from 1, but from 0 for updates; 1 for a contact in
+    /// one step.
     pub step: usize,
 }
 
@@ -237,12 +246,13 @@ pub struct Surroundings {
     pub repeats: bool,
     /// Whether stages of a loading go there and come back, again and again.
     pub has_cycles: bool,
-    /// Sum of the speeds at which both bodies move past the contact; `None` if it is unknown or they are at rest.
+    /// Sum of the speeds at which both bodies move past the contact; `None` if it is unknown or they are at
+    /// rest.
     pub dragging_speed: Option<MetrePerSecond>,
     /// Whether there is friction.
     pub has_friction: bool,
-    /// Whether the shear changes the pressures in a way that depends on them: it displaces the bodies normally, or grows junctions of cells
-    /// that may stick.
+    /// Whether the shear changes the pressures in a way that depends on them: it displaces the bodies
+    /// normally, or grows junctions of cells that may stick.
     pub shear_changes_pressures: bool,
     /// Whether a body deforms plastically below its surface.
     pub flows: bool,
@@ -293,7 +303,8 @@ pub struct Given<'a> {
     pub params: Params,
 }
 
-/// A combination that excludes a capability `C`, or something that it requires. It is broken only where its key is given.
+/// A combination that excludes a capability `C`, or something that it requires. It is broken only where its
+/// key is given.
 pub type Rule<C> = table::Rule<fn(&C, &Surroundings) -> bool>;
 
 #[cfg(test)]

@@ -27,8 +27,8 @@ impl Interfaces {
         })
     }
 
-    /// Returns what is known before anything is solved, for bodies with this composite modulus and this initial `gap`: numbers, and
-    /// reasons not to trust the result.
+    /// Returns what is known before anything is solved, for bodies with this composite modulus and this
+    /// initial `gap`: numbers, and reasons not to trust the result.
     ///
     /// # Errors
     /// The errors of [`Self::between`].
@@ -71,7 +71,8 @@ pub struct InterfaceNumbers {
 }
 
 impl InterfaceNumbers {
-    /// The groups of columns of interfaces, by the names of their records: of a contact, of a pass and of a summary.
+    /// The groups of columns of interfaces, by the names of their records: of a contact, of a pass and of a
+    /// summary.
     pub const GROUPS: [(&'static str, &'static [Column]); 3] = [
         ("AdhesionRecord", InterfaceRecord::OWN_COLUMNS),
         ("AdhesionPassRecord", InterfacePassRecord::OWN_COLUMNS),
@@ -97,8 +98,8 @@ impl InterfaceNumbers {
         self.adhesion.iter().flat_map(adhesion::AdhesionSummary::lines).collect()
     }
 
-    /// Returns the record of a contact at rest for people: 0 where a force, a pressure or an energy is nothing beside the largest, as the
-    /// attraction of separated bodies.
+    /// Returns the record of a contact at rest for people: 0 where a force, a pressure or an energy is
+    /// nothing beside the largest, as the attraction of separated bodies.
     pub fn as_shown(&self, record: &StaticRecord) -> StaticRecord {
         /// Share of the largest value below which the tolerance of the solver decides.
         const NOTHING: f64 = 1e-7;

@@ -11,7 +11,8 @@ use crate::motion::{FrettingRecord, Law, Pair, PassRecord, UpdateRecord};
 use crate::units::{Metre, Pascal, PerPascal, SquareMetre};
 use asperity_base::table::{self, Source, Table};
 
-/// Something that contacts do to a body, such as a film. Its struct is the table `[lower.NAME]` and `[upper.NAME]` of a case.
+/// Something that contacts do to a body, such as a film. Its struct is the table `[lower.NAME]` and
+/// `[upper.NAME]` of a case.
 pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync + 'static {
     /// Name of its table, and of the law in results.
     const NAME: &'static str;
@@ -23,7 +24,8 @@ pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync +
     const MEANING: &'static str;
     /// Combinations that exclude it, and what it requires.
     const RULES: &'static [LawRule<Self>];
-    /// Work on a cell of a body in contact at a position, in the unit of effort; 0 if it does not matter beside the contact.
+    /// Work on a cell of a body in contact at a position, in the unit of effort; 0 if it does not matter
+    /// beside the contact.
     const EFFORT: f64;
 
     /// Fields that it leaves on a body.
@@ -52,7 +54,8 @@ pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync +
     /// The reason why it does not apply to a body.
     fn law(bodies: [&BodyLaws; 2], pair: &Pair) -> Result<Option<Box<dyn Law>>>;
 
-    /// Depth that the body loses per pressure and distance slid, 1/Pa, with shear equal to `friction` times the pressure.
+    /// Depth that the body loses per pressure and distance slid, 1/Pa, with shear equal to `friction` times
+    /// the pressure.
     fn per_pressure(&self, friction: f64) -> PerPascal {
         let _ = friction;
         0.0
@@ -61,7 +64,8 @@ pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync +
     /// Describes the law, for `asperity check`.
     fn describe(&self) -> String;
 
-    /// Returns a result of a pass on the lower and on the upper body, each with the bound up to which the model holds for it.
+    /// Returns a result of a pass on the lower and on the upper body, each with the bound up to which the
+    /// model holds for it.
     fn limit_in_pass(pass: &PassRecord, surfaces: &ChangedSurfaces) -> [[Metre; 2]; 2];
 
     /// Returns a result of an update with its bound, as [`BodyLaw::limit_in_pass`] does.
@@ -152,5 +156,6 @@ pub enum Timeless {
     Shift,
 }
 
-/// A combination that excludes a law `L`, or something that it requires. A key `lower.…` stands for that of the body.
+/// A combination that excludes a law `L`, or something that it requires. A key `lower.…` stands for that of
+/// the body.
 pub type LawRule<L> = table::Rule<fn(&L, &Circumstances<'_>) -> bool>;

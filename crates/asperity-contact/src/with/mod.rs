@@ -1,9 +1,10 @@
 //! Capabilities: what is computed from the contacts of a case besides the contacts themselves.
 //!
-//! A capability is a folder here. It holds the table of the case, which is the physics struct itself; its law; the columns of its
-//! rows; its rules; the reasons to doubt its results; its numbers, curves and maps. Everything else is generic: the reader of case
-//! files, the files of a run and their resuming, the rows of the terminal, the figures, the page, the table of a study. It walks
-//! the one list of capabilities in this file, with [`each_capability!`](crate::each_capability).
+//! A capability is a folder here. It holds the table of the case, which is the physics struct itself; its
+//! law; the columns of its rows; its rules; the reasons to doubt its results; its numbers, curves and maps.
+//! Everything else is generic: the reader of case files, the files of a run and their resuming, the rows of
+//! the terminal, the figures, the page, the table of a study. It walks the one list of capabilities in this
+//! file, with [`each_capability!`](crate::each_capability).
 //!
 //! | module | table of the case | computes |
 //! |---|---|---|
@@ -11,22 +12,25 @@
 //! | [`conductance`] | `[conductance]` | heat or current through a contact |
 //! | [`fatigue`] | `[fatigue]` | fatigue below bodies under loads that repeat |
 //!
-//! A [`BodyLaw`] is a folder, too: what contacts do to a body. [`each_law!`](crate::each_law) walks their list.
+//! A [`BodyLaw`] is a folder, too: what contacts do to a body. [`each_law!`](crate::each_law) walks their
+//! list.
 //!
 //! | module | tables of the case | changes |
 //! |---|---|---|
 //! | [`wear`] | `[lower.wear]`, `[upper.wear]` | the heights |
 //! | [`film`] | `[lower.film]`, `[upper.film]` | the thickness of a tribofilm, and with it heights and hardness |
 //!
-//! A [`BodyProperty`] is a table of a body that contacts do not change. [`each_property!`](crate::each_property) walks their list.
+//! A [`BodyProperty`] is a table of a body that contacts do not change.
+//! [`each_property!`](crate::each_property) walks their list.
 //!
 //! | module | tables of the case | says |
 //! |---|---|---|
 //! | [`viscoelastic`] | `[lower.viscoelastic]`, `[upper.viscoelastic]` | how the body relaxes |
 //! | [`fatigue`] | `[lower.fatigue]`, `[upper.fatigue]` | which alternating loads it endures |
 //!
-//! [`Interfaces`] are the tables of what acts between the surfaces. [`each_interface!`](crate::each_interface) walks their list. Their laws
-//! are [`Interface`](crate::solver::Interface)s of the solver.
+//! [`Interfaces`] are the tables of what acts between the surfaces.
+//! [`each_interface!`](crate::each_interface) walks their list. Their laws are
+//! [`Interface`](crate::solver::Interface)s of the solver.
 //!
 //! | module | table of the case | is |
 //! |---|---|---|
@@ -65,8 +69,8 @@ use crate::motion::{
 use crate::operator::Boundary;
 use views::{Answer, Kept, Line, OfPoints};
 
-/// Declares a list of tables, each by its module and its struct: the struct that holds those that are given, and the macro that walks the list.
-/// `$dollar` is the sign `$` of this macro.
+/// Declares a list of tables, each by its module and its struct: the struct that holds those that are given,
+/// and the macro that walks the list. `$dollar` is the sign `$` of this macro.
 macro_rules! list {
     (
         $dollar:tt;
@@ -271,8 +275,9 @@ pub fn after_points(points: &[SweepRecord]) -> Vec<Answer> {
     viscoelastic::answers(points)
 }
 
-/// Returns a number that is largest for the step of a course that the answers describe: the least load of bodies that attract each other,
-/// the largest drag of a sweep of speeds. `None` where the answers describe the last step.
+/// Returns a number that is largest for the step of a course that the answers describe: the least load of
+/// bodies that attract each other, the largest drag of a sweep of speeds. `None` where the answers describe
+/// the last step.
 pub fn answering_rank(row: StepRow<'_>) -> Option<f64> {
     match row {
         StepRow::Increment(row) => row.interface.as_ref().map(|_| -row.load),
@@ -288,7 +293,8 @@ pub fn after_cycles(cycles: &FrettingRecord) -> Vec<Answer> {
     answers
 }
 
-/// Returns what sliding in place has done to the bodies up to the last of the updates, which begin before it slides.
+/// Returns what sliding in place has done to the bodies up to the last of the updates, which begin before it
+/// slides.
 pub fn after_sliding(updates: &[UpdateRecord]) -> Vec<Answer> {
     let mut answers = Vec::new();
     each_law!(L => answers.extend(L::after_sliding(updates)));
@@ -305,8 +311,9 @@ pub fn of_points() -> Vec<OfPoints> {
     vec![viscoelastic::OF_POINTS, adhesion::OF_POINTS]
 }
 
-/// Returns the columns of a run that answer the question of the user, each with its name: those of the interface, and those of the curves
-/// over points, passes, updates and cycles. Those of a capability are the columns of its curves ([`Curve`](views::Curve)).
+/// Returns the columns of a run that answer the question of the user, each with its name: those of the
+/// interface, and those of the curves over points, passes, updates and cycles. Those of a capability are the
+/// columns of its curves ([`Curve`](views::Curve)).
 pub fn answering_columns() -> Vec<(String, String)> {
     let mut columns: Vec<(String, String)> = InterfaceNumbers::ANSWERS
         .iter()
@@ -326,7 +333,8 @@ pub fn answering_columns() -> Vec<(String, String)> {
     columns
 }
 
-/// Returns reasons in the `pressure` of a contact at rest not to trust it. `curved` says whether the bodies are curved.
+/// Returns reasons in the `pressure` of a contact at rest not to trust it. `curved` says whether the bodies
+/// are curved.
 pub fn doubts_at_rest(pressure: &Field, boundary: Boundary, curved: impl FnOnce() -> bool) -> Option<String> {
     adhesion::cut_off(pressure, boundary, curved)
 }

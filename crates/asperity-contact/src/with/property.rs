@@ -7,7 +7,8 @@ use serde::Serialize;
 
 use asperity_base::table::Table;
 
-/// A property of a body that contacts do not change, such as its relaxation. Its struct is the table `[lower.NAME]` and `[upper.NAME]` of a case.
+/// A property of a body that contacts do not change, such as its relaxation. Its struct is the table
+/// `[lower.NAME]` and `[upper.NAME]` of a case.
 pub trait BodyProperty: Table + Serialize + Clone + PartialEq + Debug + Send + Sync + 'static {
     /// Name of its table.
     const NAME: &'static str;

@@ -76,23 +76,26 @@ pub enum OverPressure {
     Exponent,
 }
 
-/// Returns the rows that show how something depends on the mean pressure: all of them if it only rises or only falls from row to row, else the
-/// last one, because a loading history has other states at the same pressure.
+/// Returns the rows that show how something depends on the mean pressure: all of them if it only rises or
+/// only falls from row to row, else the last one, because a loading history has other states at the same
+/// pressure.
 pub fn over_pressure<R>(rows: &[R], pressure: impl Fn(&R) -> Pascal) -> &[R] {
     let rises = rows.is_sorted_by(|one, next| pressure(one) <= pressure(next));
     let falls = rows.is_sorted_by(|one, next| pressure(one) >= pressure(next));
     if rises || falls { rows } else { &rows[rows.len() - 1..] }
 }
 
-/// Returns the least pressure above which no value is above 0, of points [pressure, value]; `None` if the value at the largest pressure is.
+/// Returns the least pressure above which no value is above 0, of points [pressure, value]; `None` if the
+/// value at the largest pressure is.
 pub fn closing(points: impl Iterator<Item = [f64; 2]> + Clone) -> Option<Pascal> {
     let open =
         points.clone().filter(|[_, value]| *value > 0.0).map(|[pressure, _]| pressure).fold(0.0, f64::max);
     points.map(|[pressure, _]| pressure).filter(|pressure| *pressure > open).reduce(f64::min)
 }
 
-/// Returns the exponent of the power of the pressure that fits values best, by least squares of their logarithms; `None` for values at fewer
-/// than three pressures, or over less than half a decade. Values that are not above 0 are left out.
+/// Returns the exponent of the power of the pressure that fits values best, by least squares of their
+/// logarithms; `None` for values at fewer than three pressures, or over less than half a decade. Values that
+/// are not above 0 are left out.
 pub fn exponent(points: impl Iterator<Item = [f64; 2]>) -> Option<f64> {
     /// Ratio of the largest to the least pressure.
     const LEAST_RANGE: f64 = 3.0;

@@ -13,7 +13,8 @@ use asperity_contact::solver::{Bounds, Control, Loading, Params, Solution, solve
 use asperity_surface::{Amplitude, SelfAffine, Topography};
 
 const ELASTIC: CellValues = CellValues::Uniform(f64::INFINITY);
-/// Modulus and work of adhesion for which loads are in πwR and lengths in the units of Maugis, with a sphere of radius 1.
+/// Modulus and work of adhesion for which loads are in πwR and lengths in the units of Maugis, with a sphere
+/// of radius 1.
 const MODULUS: f64 = 0.75;
 const WORK: f64 = FRAC_1_PI;
 
@@ -64,7 +65,8 @@ fn exponential(lambda: f64) -> Adhesion {
     Adhesion::new(WORK, WORK / (0.5 * lambda)).unwrap()
 }
 
-/// Least load of a sphere with a constant tension on a grid of so many cells, over the closed form of Maugis, minus 1.
+/// Least load of a sphere with a constant tension on a grid of so many cells, over the closed form of Maugis,
+/// minus 1.
 fn maugis_error(lambda: f64, cells: usize) -> f64 {
     let exact = MaugisSphere::from_lambda(1.0, MODULUS, WORK, lambda);
     let adhesion = Adhesion::new(WORK, WORK / exact.tension).unwrap().with_potential(Potential::Dugdale);
@@ -160,8 +162,9 @@ fn kendall(cells: usize) -> f64 {
     let inside = |(i, j): (usize, usize)| at(i).hypot(at(j)) < 1.0;
     let gap = Field::from_shape_fn(grid.shape, |cell| if inside(cell) { 0.0 } else { 9.0 });
     let work = 1e-3;
-    // The tension of the outermost cells is that at which Pohrt & Popov, Facta Univ. Mech. Eng. 13, 3 (2015), let a cell go. The edge of a
-    // punch does not move before it lets go, so that the grid need not resolve the process zone.
+    // The tension of the outermost cells is that at which Pohrt & Popov, Facta Univ. Mech. Eng. 13, 3 (2015),
+    // let a cell go. The edge of a punch does not move before it lets go, so that the grid need not resolve
+    // the process zone.
     let range = (0.473_201 * work * grid.pitch[0]).sqrt();
     let adhesion = Adhesion::new(work, range).unwrap();
     let cells_inside = gap.iter().filter(|h| **h == 0.0).count();
@@ -227,8 +230,9 @@ fn the_weakest_attraction_gives_the_contact_without_adhesion() {
     }
 }
 
-/// States of a rough surface at three approaches up and two down by a program in Python: work of adhesion, first of three approaches,
-/// mean pressures, shares of the area in contact, and its convolutions for all five states.
+/// States of a rough surface at three approaches up and two down by a program in Python: work of adhesion,
+/// first of three approaches, mean pressures, shares of the area in contact, and its convolutions for all
+/// five states.
 struct Rough {
     work: f64,
     mean_pressures: [f64; 5],
@@ -236,7 +240,8 @@ struct Rough {
     convolutions: f64,
 }
 
-/// Gaps of 64² and 128² cells, seed 0 of numpy's random numbers: E* = 1, pitch 1, rms slope 0.1, shortest wave 16 cells, range 0.5.
+/// Gaps of 64² and 128² cells, seed 0 of numpy's random numbers: E* = 1, pitch 1, rms slope 0.1, shortest
+/// wave 16 cells, range 0.5.
 const GAP_64: &[u8] = include_bytes!("../data/adhesive_gap_64.bin");
 const GAP_128: &[u8] = include_bytes!("../data/adhesive_gap_128.bin");
 

@@ -1,4 +1,5 @@
-//! Bodies that attract each other under friction: the law of friction by direct summation, and Derjaguin's law.
+//! Bodies that attract each other under friction: the law of friction by direct summation, and Derjaguin's
+//! law.
 
 use std::f64::consts::FRAC_1_PI;
 use std::sync::Arc;
@@ -50,7 +51,8 @@ fn displacement(pair: &Pair, solution: &FrictionalSolution) -> [Field; 2] {
     displacement
 }
 
-/// Checks the law of friction in each cell for this slip. Returns the numbers of cells that stick, that slip and that are under tension.
+/// Checks the law of friction in each cell for this slip. Returns the numbers of cells that stick, that slip
+/// and that are under tension.
 fn check(solution: &FrictionalSolution, slip: &[Field; 2]) -> [usize; 3] {
     let size = slip.iter().chain(&solution.displacement).flatten().fold(0.0f64, |m, s| m.max(s.abs()));
     let near = 1e-5 * size;
@@ -137,8 +139,8 @@ fn bodies_that_attract_each_other_roll_by_their_pressure() {
     assert!(counts.iter().all(|count| *count > 5), "{counts:?}");
 }
 
-/// Errors of the friction force of a sphere against Derjaguin's law, Q = μ(W + 2πwR), and of the tangential displacement under half of it against
-/// Cattaneo and Mindlin for that normal force.
+/// Errors of the friction force of a sphere against Derjaguin's law, Q = μ(W + 2πwR), and of the tangential
+/// displacement under half of it against Cattaneo and Mindlin for that normal force.
 fn derjaguin_errors(lambda: f64, cells: usize) -> [f64; 2] {
     // The units of Maugis: loads in πwR, and a sphere of radius 1.
     let (modulus, work, load) = (0.75, FRAC_1_PI, 2.0);
@@ -214,7 +216,8 @@ fn fretted(attraction: f64, wear: f64, cycles: usize, acceleration: Acceleration
         .unwrap()
 }
 
-/// Each volume is that of the friction work: wear counts the pressures that press, as friction does, and not the tensions that pull.
+/// Each volume is that of the friction work: wear counts the pressures that press, as friction does, and not
+/// the tensions that pull.
 #[test]
 fn bodies_that_attract_each_other_fret_off_what_their_friction_takes() {
     let of_work = |attraction: f64, wear: f64, cycles: usize| {

@@ -109,7 +109,8 @@ fn rough_joints_conduct_as_in_an_independent_program_and_nearly_as_by_correlatio
                 continue;
             }
             let capped = row["law"] == "capped";
-            // The other program states loads by the mean slope, as its hardness or its mean pressure is round.
+            // The other program states loads by the mean slope, as its hardness or its mean pressure is
+            // round.
             let hardness = if number_or(&row["H_over_Em"], 1.0) > 0.1 { 0.1 } else { 0.03 };
             let (slope, load, hardness) = if capped {
                 (hardness / number(&row["H_over_Em"]), hardness * number(&row["P_over_H"]), hardness)
@@ -231,8 +232,8 @@ fn random_elastic_contacts_conduct_as_they_are_stiff() {
     assert!(largest < 2e-2, "{largest}");
 }
 
-/// The same roughness on maps of more and more periods: the spreading from the outline grows, the joint stays that of the period. Both pressure
-/// and flux crowd at the outline, so that the drop across the joint is
+/// The same roughness on maps of more and more periods: the spreading from the outline grows, the joint stays
+/// that of the period. Both pressure and flux crowd at the outline, so that the drop across the joint is
 /// nearly even.
 #[test]
 fn a_joint_under_a_free_boundary_is_that_of_the_period_whatever_the_size_of_the_map() {

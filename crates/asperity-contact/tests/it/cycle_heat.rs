@@ -61,7 +61,8 @@ fn slid(cells: usize, period: Option<f64>) -> Result<(LoadedContact, Vec<f64>), 
     Ok((contact, seen))
 }
 
-/// The rise in the middle of a circle whose heat is that of Hertz' pressure, π q₀ a/(4 k), shared by two bodies.
+/// The rise in the middle of a circle whose heat is that of Hertz' pressure, π q₀ a/(4 k), shared by two
+/// bodies.
 #[test]
 fn a_ball_that_slides_to_and_fro_has_the_steady_temperature_of_its_mean_heat() {
     let errors = [16, 32].map(|cells| {

@@ -17,8 +17,8 @@ fn along(flow: &Flow, axis: usize) -> &FlowAlong {
     flow.along[axis].as_ref().expect("a direction that was asked for")
 }
 
-/// Five gaps with 0 to 60 % contact and contrasts up to 10¹², and their answers by another program: numpy, with SuperLU and a search by
-/// bisection for the constriction, faces by the harmonic mean. Unit: k = g³, m³.
+/// Five gaps with 0 to 60 % contact and contrasts up to 10¹², and their answers by another program: numpy,
+/// with SuperLU and a search by bisection for the constriction, faces by the harmonic mean. Unit: k = g³, m³.
 struct Known {
     shape: [usize; 2],
     pitch: [f64; 2],
@@ -329,7 +329,8 @@ fn a_gap_that_is_no_gap_is_refused() {
     assert_eq!(effective_medium(&with(0.0)), effective_medium(&with(-1.0)));
 }
 
-/// Periodic Gaussian heights of unit rms height, smoothed by a Gaussian of a standard deviation of this many cells along x and y.
+/// Periodic Gaussian heights of unit rms height, smoothed by a Gaussian of a standard deviation of this many
+/// cells along x and y.
 fn gaussian_heights(n: usize, smooth: f64, seed: u64) -> Field {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut heights: Field = Field::from_shape_simple_fn([n, n], || StandardNormal.sample(&mut random));
@@ -351,7 +352,8 @@ fn gaussian_heights(n: usize, smooth: f64, seed: u64) -> Field {
 
 #[test]
 fn rigid_gaussian_roughness_has_flow_factors_near_those_of_patir_and_cheng() {
-    // Mean gap over the rms height; flow factors of 6 surfaces of 192² by another program, and their standard error.
+    // Mean gap over the rms height; flow factors of 6 surfaces of 192² by another program, and their standard
+    // error.
     for (ratio, expected, error) in
         [(1.0, 0.580, 0.024), (2.0, 0.750, 0.0079), (3.0, 0.856, 0.0039), (6.0, 0.9587, 0.0011)]
     {
@@ -411,8 +413,8 @@ fn a_bisinusoid_closes_at_a_fraction_of_the_pressure_of_full_contact() {
         "{}",
         permeability(open, Faces::Linear).1
     );
-    // K ∝ (p_c − p)^β, β falls to 3.45 at p_c (Dapp & Müser, EPL 109, 44001 (2015)); from 3 to 5 % below it another program has 3.63 on 64²
-    // and 3.55 on 256², with the harmonic mean.
+    // K ∝ (p_c − p)^β, β falls to 3.45 at p_c (Dapp & Müser, EPL 109, 44001 (2015)); from 3 to 5 % below it
+    // another program has 3.63 on 64² and 3.55 on 256², with the harmonic mean.
     let mut exponent = |faces| {
         let [near, far] = [0.03, 0.05].map(|below| permeability(open * (1.0 - below), faces).0);
         (far / near).ln() / (0.05_f64 / 0.03).ln()

@@ -1,5 +1,5 @@
-//! The contact with friction compared with an independent method on small grids, and with conditions that every solution
-//! must satisfy.
+//! The contact with friction compared with an independent method on small grids, and with conditions that
+//! every solution must satisfy.
 
 use asperity_base::{Error, Field, Grid};
 use asperity_contact::material::Compliances;
@@ -203,7 +203,8 @@ fn bodies_apart_bear_nothing_and_touch_later() {
     }
 }
 
-/// New cells carry more shear than pressure, and shear lifts the cells at the edge that have just come into contact.
+/// New cells carry more shear than pressure, and shear lifts the cells at the edge that have just come into
+/// contact.
 #[test]
 fn much_friction_between_very_dissimilar_bodies_has_an_answer() {
     let (cells, steps) = (16, 16);
@@ -363,8 +364,8 @@ fn a_large_contact_takes_no_more_steps_than_a_small_one() {
     assert!(cost.iter().all(|convolutions| *convolutions < 180.0), "{cost:?}");
 }
 
-/// A pushed ball is unloaded at a constant displacement: its outer cells slip, then leave. What forces and approach give, less what the bodies
-/// keep, is dissipated.
+/// A pushed ball is unloaded at a constant displacement: its outer cells slip, then leave. What forces and
+/// approach give, less what the bodies keep, is dissipated.
 #[test]
 fn cells_that_leave_the_contact_dissipate_what_the_bodies_do_not_keep() {
     let grid = Grid::new([24, 24], [1.0; 2]).unwrap();
@@ -401,7 +402,8 @@ fn cells_that_leave_the_contact_dissipate_what_the_bodies_do_not_keep() {
     };
     let [_, _, _, kept] = unload(2);
     let fine = unload(64);
-    // The same energy by the forces: the work of unloading is that of the trapezoidal rule with the second order.
+    // The same energy by the forces: the work of unloading is that of the trapezoidal rule with the second
+    // order.
     assert!((fine[0] - 0.076).abs() < 2e-4 && kept > fine[0], "{fine:?} {kept}");
     let errors = [4, 8, 16].map(|steps| {
         let [lost, touching, error, _] = unload(steps);

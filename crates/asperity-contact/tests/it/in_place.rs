@@ -274,8 +274,9 @@ fn an_update_wears_by_the_pressure_that_it_leaves() {
     }
 }
 
-/// Between dissimilar bodies the shear displaces the surfaces normally. The pressures after the update are those of sliding bodies with the
-/// worn surfaces, found by direct summation; they differ from those without coupling.
+/// Between dissimilar bodies the shear displaces the surfaces normally. The pressures after the update are
+/// those of sliding bodies with the worn surfaces, found by direct summation; they differ from those without
+/// coupling.
 #[test]
 fn an_update_under_coupled_shear_wears_by_the_pressure_that_it_leaves() {
     let polymer = Material::elastic(3e9, 0.2).unwrap();
@@ -422,8 +423,8 @@ fn a_law_without_a_coefficient_is_explicit_and_the_implicit_one_stays_smooth() {
         let p = &state.pressure;
         largest(&(p - p.mean().unwrap())) / p.mean().unwrap()
     };
-    // The smallest eigenvalue of C is 0.58 Δx/E*. An explicit update must wear less than twice that, or pressures
-    // oscillate.
+    // The smallest eigenvalue of C is 0.58 Δx/E*. An explicit update must wear less than twice that, or
+    // pressures oscillate.
     let bound = 2.0 * 0.58 * PITCH / 115.4e9 / k;
     let most = (0.2 / bound).floor() as usize;
     assert!(spread(&run(true, 10)) < 0.05, "{}", spread(&run(true, 10)));
@@ -453,7 +454,8 @@ fn what_has_no_meaning_is_refused() {
     assert!(matches!(cold.with_changes(changes), Err(Error::Unsupported(_))));
 }
 
-/// The pressure of flat periodic bodies is uniform: f = f₀ − k p s until the film is used up, and the body wears by k(f).
+/// The pressure of flat periodic bodies is uniform: f = f₀ − k p s until the film is used up, and the body
+/// wears by k(f).
 #[test]
 fn a_solid_lubricant_is_worn_off_and_the_body_after_it() {
     let (thickness, k_film, k_bare, k_under) = (40e-9, 2e-15, 5e-16, 1e-17);
@@ -554,7 +556,8 @@ fn a_faint_attraction_wears_in_place_as_hard_walls_do() {
 
 const RUBBER: f64 = 1e6;
 
-/// A ball of rubber whose modulus falls from ten times that at rest, by one time of a second; on rigid glass, which wears.
+/// A ball of rubber whose modulus falls from ten times that at rest, by one time of a second; on rigid glass,
+/// which wears.
 fn rubber_ball(speed: f64, updates: usize, wear: f64, relaxes: bool) -> (SlidingOutcome, Vec<Field>, Pair) {
     let grid = Grid::new([24, 24], [10e-6; 2]).unwrap();
     let ball = Form::Sphere { radius: 2e-3 }.on(&grid).unwrap();

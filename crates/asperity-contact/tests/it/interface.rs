@@ -66,7 +66,8 @@ fn sucked() -> Pair {
     rough().with_interface(Arc::new(Suction { tension: TENSION, range: 1e-3 }))
 }
 
-/// Suction presses like a load of the tension on the whole grid: the displacement under an even pressure of a periodic surface is 0.
+/// Suction presses like a load of the tension on the whole grid: the displacement under an even pressure of a
+/// periodic surface is 0.
 #[test]
 fn suction_presses_as_a_load_does() {
     let (boundary, params) = (Boundary::PERIODIC, Params::new().with_tolerance(1e-9));

@@ -1,4 +1,5 @@
-//! Relative positions of the bodies in a motion: between columns, on forward and return strokes, with offsets along y.
+//! Relative positions of the bodies in a motion: between columns, on forward and return strokes, with offsets
+//! along y.
 
 use asperity_base::{Error, Field, Grid};
 use asperity_contact::material::Material;
@@ -176,7 +177,8 @@ fn surfaces_between_columns_meet_and_wear_as_by_dense_interpolation() {
     assert!(between > 2 * cases as usize && yielded > 100, "{between} {yielded}");
 }
 
-/// A surface that is uniform along the sliding direction is not affected by the fractional column of the other.
+/// A surface that is uniform along the sliding direction is not affected by the fractional column of the
+/// other.
 #[test]
 fn grooves_along_the_sliding_wear_as_by_whole_cells() {
     let grid = Grid::new([10, 16], [PITCH; 2]).unwrap();
@@ -460,8 +462,8 @@ fn a_pass_there_and_back_is_heated_without_a_break() {
     for (a, b) in there.iter().zip(&both) {
         assert!((a / b - 1.0).abs() < 2e-3, "{a} {b}");
     }
-    // The contact stays for another step, and its temperature rises. Later passes find higher temperatures at the same
-    // place.
+    // The contact stays for another step, and its temperature rises. Later passes find higher temperatures at
+    // the same place.
     assert!(both[16] > both[15] && both[31] > both[0], "{both:?}");
 }
 

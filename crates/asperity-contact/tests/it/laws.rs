@@ -97,8 +97,8 @@ fn a_law_from_outside_wears_the_body_that_it_names_and_the_ledger_balances() {
     }
 }
 
-/// Oxidation of both bodies in contact by the parabolic law: dξ²/dt = A exp(−Q/RT). The surface of the oxide is above that
-/// of the consumed metal by the fraction `SWELLING` of its thickness.
+/// Oxidation of both bodies in contact by the parabolic law: dξ²/dt = A exp(−Q/RT). The surface of the oxide
+/// is above that of the consumed metal by the fraction `SWELLING` of its thickness.
 struct Oxidation;
 
 /// A of the parabolic law, m²/s.
@@ -141,8 +141,8 @@ impl Law for Oxidation {
     }
 }
 
-/// Two flat bodies in sliding contact, heated by friction or not. Returns the thickness of the oxide on the lower body
-/// after 1000 passes, and the losses in the computed passes.
+/// Two flat bodies in sliding contact, heated by friction or not. Returns the thickness of the oxide on the
+/// lower body after 1000 passes, and the losses in the computed passes.
 fn oxidised(warmed: bool) -> (Vec<PassRecord>, Field) {
     let grid = Grid::new([8, 8], [PITCH, PITCH]).unwrap();
     let flat = || Form::Flat.on(&grid).unwrap();

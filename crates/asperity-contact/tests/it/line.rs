@@ -101,7 +101,8 @@ fn where_it_begins_along_its_line_makes_no_difference() {
 
 #[test]
 fn far_from_its_images_a_contact_is_the_free_one() {
-    // The contribution of the images is uniform and, to next order, a curvature of third order in size over period.
+    // The contribution of the images is uniform and, to next order, a curvature of third order in size over
+    // period.
     let load = 4.0;
     let gap = |grid: &Grid| {
         let [x0, y0] = grid.extent().map(|e| 0.5 * e);

@@ -1,4 +1,5 @@
-//! Static contacts loaded stage after stage: plastic deformation is irreversible, and interruptions leave no trace.
+//! Static contacts loaded stage after stage: plastic deformation is irreversible, and interruptions leave no
+//! trace.
 
 use asperity_base::{Error, Field, Grid};
 use asperity_contact::material::{Compliances, Material};
@@ -179,8 +180,8 @@ fn plastic(state: &LoadingState, gap: &Field) -> Field {
         + &state.flattening.kept.clone().unwrap_or_else(|| Field::zeros(gap.raw_dim()))
 }
 
-/// Compares with a cell-by-cell solution: in each increment on surfaces lowered by all earlier plastic deformation, as the
-/// law requires.
+/// Compares with a cell-by-cell solution: in each increment on surfaces lowered by all earlier plastic
+/// deformation, as the law requires.
 fn against_cell_by_cell(seed: u64) {
     let case = Case::at_random(seed, [7, 6], false);
     let states = case.run(&FINE).unwrap_or_else(|error| panic!("case {seed}: {error}"));
@@ -313,8 +314,8 @@ fn any_tolerance_is_met() {
 
 // ---- frictional energy -----------------------------------------------------------------------------------
 
-/// The first example of the user guide of CONTACT: a ball of polyethylene is pressed on an identical one, then shifted. The
-/// numbers are those of the reference output of CONTACT (Vollebregt), with four digits.
+/// The first example of the user guide of CONTACT: a ball of polyethylene is pressed on an identical one,
+/// then shifted. The numbers are those of the reference output of CONTACT (Vollebregt), with four digits.
 #[test]
 fn contacts_example_of_a_shift_has_its_work_of_friction_in_one_increment() {
     let pitch = 0.13333e-3;

@@ -34,8 +34,8 @@ fn at_a_constant_approach_the_bodies_shake_down_at_once() {
 
 #[test]
 fn at_a_constant_load_the_plastic_volume_decays_while_the_bodies_sink_together() {
-    // With plastic deformation at every position, running-in is faster than with the frozen geometry of a pass, which
-    // decays by about 0.3.
+    // With plastic deformation at every position, running-in is faster than with the frozen geometry of a
+    // pass, which decays by about 0.3.
     for (update, decay) in [(PlasticUpdate::Pass, 0.1..0.5), (PlasticUpdate::Step, 0.02..0.2)] {
         let load = motion(pass_load(10.0 * LOAD), 5).with_plastic_update(update);
         let kept = run(rough_pair(32), load);
@@ -582,7 +582,8 @@ fn rough_pair(cells: usize) -> Pair {
     steel_pair(surface([cells, cells], 1), surface([cells, cells], 2))
 }
 
-/// A compliant body on a stiff one, so that shear displaces the surfaces normally; both yield earlier than steel.
+/// A compliant body on a stiff one, so that shear displaces the surfaces normally; both yield earlier than
+/// steel.
 fn dissimilar_pair(cells: usize) -> Pair {
     let [soft, hard] = [70e9, 210e9].map(|young| Material::new(young, 0.3, 0.4 * HARDNESS).unwrap());
     Pair::new(surface([cells, cells], 1), surface([cells, cells], 2), [&soft, &hard]).unwrap()

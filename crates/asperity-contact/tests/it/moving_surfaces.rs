@@ -1,6 +1,8 @@
-//! The motion compared with an independent dense implementation (numpy and scipy): two surfaces of 12 × 12 cells.
+//! The motion compared with an independent dense implementation (numpy and scipy): two surfaces of 12 × 12
+//! cells.
 //!
-//! `data/moving_surfaces_12.json` contains its numbers, computed with exact active sets and pass-mean loads to 1e-12.
+//! `data/moving_surfaces_12.json` contains its numbers, computed with exact active sets and pass-mean loads
+//! to 1e-12.
 
 use asperity_base::{Field, Grid};
 use asperity_contact::material::Material;

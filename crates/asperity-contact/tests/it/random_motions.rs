@@ -1,6 +1,7 @@
 //! Motions with random combinations of options; each position is solved again by an independent method.
 //!
-//! `CASES=1000 cargo test -p asperity-contact --test it random_motions` tries this number, starting from the seed `SEED`.
+//! `CASES=1000 cargo test -p asperity-contact --test it random_motions` tries this number, starting from the
+//! seed `SEED`.
 
 use asperity_base::error::LoadLimit;
 use asperity_base::{Error, Field, Grid};
@@ -251,8 +252,8 @@ fn check(case: &Case, index: u64, tally: &mut Tally) {
     }
 }
 
-/// Compares a pass with the solution of each position at its approach, by the direct method and to round-off, on geometry
-/// that is lowered here. Returns the bodies after the pass.
+/// Compares a pass with the solution of each position at its approach, by the direct method and to round-off,
+/// on geometry that is lowered here. Returns the bodies after the pass.
 fn hold(
     case: &Case,
     before: &Pair,
@@ -282,8 +283,8 @@ fn hold(
         let gap = now.initial_gap(position);
         let (pressure, interference) = again(case, &operators, position, &gap, step);
         let load = area * pressure.sum();
-        // At one approach the error of the load is a fraction of the residual. The reference is the load at which the
-        // displacement deviates by as much as here.
+        // At one approach the error of the load is a fraction of the residual. The reference is the load at
+        // which the displacement deviates by as much as here.
         let scale = load.max(step.load).max(area * pressure.len() as f64 * 1e-6);
         let error = (load - step.load).abs() / scale / case.tolerance;
         tally.largest_error = tally.largest_error.max(error);

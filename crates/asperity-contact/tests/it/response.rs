@@ -77,8 +77,8 @@ fn a_contact_of_ones_own_bodies_is_that_of_a_sum_of_ones_own_cells() {
     let params = Params::default().with_tolerance(1e-10).with_method(Method::ActiveSet);
     let found = press(&pair, Boundary::FREE, Control::Load(0.3), FRICTIONLESS, &params, &()).unwrap();
     let (record, solution) = (found.record, found.solution.into_normal());
-    // u = Cp from the coefficients of half-spaces, cell by cell, and from the springs. The gap is never below 0, and it is
-    // 0 under pressure below the hardness.
+    // u = Cp from the coefficients of half-spaces, cell by cell, and from the springs. The gap is never below
+    // 0, and it is 0 under pressure below the hardness.
     let mut displacement = Field::zeros(GRID.shape);
     DirectSum::new(GRID, modulus).apply(&solution.pressure, &mut displacement);
     displacement.scaled_add(compliance, &solution.pressure);

@@ -109,7 +109,8 @@ fn a_ball_rolls_a_groove_that_shakes_down_at_a_moderate_load() {
         kept.passes.iter().map(|p| p.plastic).collect::<Vec<_>>()
     );
     assert!(flow(0).plastic_work_lower > 0.0 && flow(0).plastic_work_upper == 0.0);
-    // Deepest along the middle, and uniform along the path, except around the middle, where a pass begins and ends.
+    // Deepest along the middle, and uniform along the path, except around the middle, where a pass begins and
+    // ends.
     let r = displacements(&kept)[0];
     let far = || (0..8).chain(24..32);
     let along = |iy: usize| far().map(|ix| r[[ix, iy]]).sum::<f64>() / 16.0;
@@ -151,8 +152,8 @@ fn one_approach_bears_the_mean_load_and_later_passes_begin_from_it() {
     assert!(one.clone().all(|approach| approach == kept.steps[0].approach));
 }
 
-/// A ball on the upper body over a flat lower one, and upside down in the other direction: the lower body is stationary in
-/// both.
+/// A ball on the upper body over a flat lower one, and upside down in the other direction: the lower body is
+/// stationary in both.
 #[test]
 fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
     let shape = [24, 12];
@@ -201,8 +202,8 @@ fn a_body_that_lies_between_columns_flows_as_much() {
     assert!(kept.passes[1].plastic.unwrap().max_plastic_strain_upper >= flow.max_plastic_strain_upper);
 }
 
-/// A ball passes over a flat body and leaves it, at constant approach; another one runs on a ring, at the load of the
-/// first. Compares the grooves in the middle.
+/// A ball passes over a flat body and leaves it, at constant approach; another one runs on a ring, at the
+/// load of the first. Compares the grooves in the middle.
 #[test]
 fn an_overlap_far_from_all_rims_is_a_shift() {
     let params = Params::default();
@@ -228,7 +229,8 @@ fn an_overlap_far_from_all_rims_is_a_shift() {
     let shifted = Kept::of(
         shifted.with_plastic([Some(flowing(ring, periodic, 0.0)), None], PlasticParams::new()).unwrap(),
     );
-    // The pass on the ring begins and ends in its middle: the groove is evaluated where the ball has been rolling for long.
+    // The pass on the ring begins and ends in its middle: the groove is evaluated where the ball has been
+    // rolling for long.
     let groove = |r: &Field, columns: [usize; 8]| {
         let depth = |ix: usize| {
             let row = r.row(ix);

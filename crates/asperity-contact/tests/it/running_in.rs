@@ -98,7 +98,8 @@ fn the_volume_is_archards_and_the_ledger_balances() {
         for (index, pass) in kept.passes.iter().enumerate() {
             let worn = pass.lost("wear")[body];
             let expected = 4e-15 * kept.force(index) * 4.0 * PITCH * pass.represents() as f64;
-            // Between extrapolations the load is met within its tolerance, and so is the volume of the extrapolated passes.
+            // Between extrapolations the load is met within its tolerance, and so is the volume of the
+            // extrapolated passes.
             let within = if pass.represents() == 1 { 1e-12 } else { 3e-4 };
             assert!((worn / expected - 1.0).abs() < within, "{worn:e}, {expected:e}");
             lost += worn + pass.lost("plastic")[body];
@@ -144,8 +145,8 @@ fn flat_film(passes: usize, jump: usize, law: FilmLaw) -> f64 {
     mean
 }
 
-/// A film that is removed faster than it grows is used up. Its cell stays bare, with a thickness of 0, until growth is
-/// faster again. Compared with steps of a thousandth of a pass.
+/// A film that is removed faster than it grows is used up. Its cell stays bare, with a thickness of 0, until
+/// growth is faster again. Compared with steps of a thousandth of a pass.
 #[test]
 fn a_film_is_never_below_0_over_any_jump() {
     let (x, most, c3) = (1e-13, 10e-9, 4e-9);
@@ -216,9 +217,9 @@ fn what_is_not_accelerated_keeps_nothing_for_jumps() {
     }
 }
 
-/// A pass with one position over the whole length of surfaces that are pressed flat. The wear is computed by the law, or by
-/// the caller as an explicit step. Returns the amplitude of the checkerboard mode of the pressures over their mean, after
-/// `passes` passes.
+/// A pass with one position over the whole length of surfaces that are pressed flat. The wear is computed by
+/// the law, or by the caller as an explicit step. Returns the amplitude of the checkerboard mode of the
+/// pressures over their mean, after `passes` passes.
 fn checkerboard(wear: f64, passes: usize, by_law: bool) -> f64 {
     const CELLS: usize = 16;
     let grid = Grid::new([CELLS, CELLS], [PITCH; 2]).unwrap();
@@ -256,12 +257,14 @@ fn checkerboard(wear: f64, passes: usize, by_law: bool) -> f64 {
     left.abs()
 }
 
-/// Displacement of a periodic surface under a checkerboard pressure of 1: 2/E*q at the shortest wave on the grid.
+/// Displacement of a periodic surface under a checkerboard pressure of 1: 2/E*q at the shortest wave on the
+/// grid.
 fn chequered_softness(pair: &Pair) -> f64 {
     2.0 * PITCH / (pair.modulus() * PI * 2.0_f64.sqrt())
 }
 
-/// A law from outside, as one in Python: its depths are those of a single pass, and are taken off for each pass that is represented.
+/// A law from outside, as one in Python: its depths are those of a single pass, and are taken off for each
+/// pass that is represented.
 #[test]
 fn a_custom_law_is_extrapolated_as_one_that_is_built_in() {
     const PASSES: usize = 400;
@@ -297,15 +300,16 @@ fn a_custom_law_is_extrapolated_as_one_that_is_built_in() {
     for kept in [&all, &some] {
         assert!((volume(kept) / expected - 1.0).abs() < 1e-3, "{} {expected}", volume(kept));
     }
-    // No extrapolation takes much more than its limit from a cell, and the heights are off by no more than is estimated.
+    // No extrapolation takes much more than its limit from a cell, and the heights are off by no more than is
+    // estimated.
     for (every, some_of_them) in heights(&all).into_iter().zip(heights(&some)) {
         let off = largest(&(every - some_of_them));
         assert!(off < error(&some), "{off:e} {:e}", error(&some));
     }
 }
 
-/// The explicit step oscillates above the bound (k₁ + k₂) Σ|Δs| = 2λ, until every second cell has no pressure. If a law
-/// wears more, a pass is solved together with its wear, and does not oscillate.
+/// The explicit step oscillates above the bound (k₁ + k₂) Σ|Δs| = 2λ, until every second cell has no
+/// pressure. If a law wears more, a pass is solved together with its wear, and does not oscillate.
 #[test]
 fn beyond_the_stability_bound_pressures_swing_unless_a_pass_is_solved_with_its_wear() {
     let first = checkerboard(0.9, 1, false);
@@ -323,8 +327,8 @@ fn beyond_the_stability_bound_pressures_swing_unless_a_pass_is_solved_with_its_w
     assert!((worn / expected - 1.0).abs() < 0.01, "{worn:e}, expected {expected:e}");
 }
 
-/// Some passes of a body in zinc dialkyl dithiophosphate against a body that slides over it at this speed with friction,
-/// heated in every `every`-th pass, or in none for 0.
+/// Some passes of a body in zinc dialkyl dithiophosphate against a body that slides over it at this speed
+/// with friction, heated in every `every`-th pass, or in none for 0.
 fn heated(speed: f64, passes: usize, every: usize) -> Kept {
     let friction = Friction::coulomb(0.1).unwrap().with_coupling(Coupling::None);
     let strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: speed };
@@ -380,8 +384,8 @@ fn what_is_heated_in_some_passes_grows_films_in_all() {
     assert!(!each.last().lower.state.contains_key(FLASH));
 }
 
-/// A pass solved together with its wear has the pressures of the bodies after it: those at the same approach on these
-/// bodies.
+/// A pass solved together with its wear has the pressures of the bodies after it: those at the same approach
+/// on these bodies.
 #[test]
 fn a_pass_solved_with_its_wear_presses_the_bodies_that_it_leaves() {
     let params = Params::default().with_tolerance(1e-9);
@@ -426,7 +430,8 @@ fn a_pass_solved_with_its_wear_presses_the_bodies_that_it_leaves() {
     }
 }
 
-/// Flat periodic bodies that pass over each other: the film has lost k p s, whether each pass is computed or only a few.
+/// Flat periodic bodies that pass over each other: the film has lost k p s, whether each pass is computed or
+/// only a few.
 #[test]
 fn a_solid_lubricant_lasts_as_long_as_its_thickness_over_k_p() {
     let grid = Grid::new([16, 8], [PITCH; 2]).unwrap();

@@ -1,4 +1,5 @@
-//! Bodies in sliding motion: each position compared with the same contact solved alone, and tests of symmetry.
+//! Bodies in sliding motion: each position compared with the same contact solved alone, and tests of
+//! symmetry.
 
 use asperity_base::{Field, Grid};
 use asperity_contact::material::Material;
@@ -48,8 +49,8 @@ fn each_position_of_a_pass_is_the_contact_that_slides_alone() {
     }
 }
 
-/// The bodies mirrored in x slide in the other direction like these in this one. The pressure differs from that without
-/// friction.
+/// The bodies mirrored in x slide in the other direction like these in this one. The pressure differs from
+/// that without friction.
 #[test]
 fn sliding_to_the_other_side_is_the_mirror_image() {
     let mirrored = |z: Field| z.slice(ndarray::s![..;-1, ..]).to_owned();

@@ -149,8 +149,8 @@ fn the_residual_is_that_of_the_direct_sum() {
         sum.apply(&solution.pressure, &mut displacement);
         let (bounds, own) = (Bounds::up_to(hardness), sum.influence(0, 0));
         let independent = residual(&solution.pressure, &displacement, &gap, &bounds, own, None);
-        // Single precision may cause an error of a tenth of the tolerance in the displacement, which counts in the
-        // residual.
+        // Single precision may cause an error of a tenth of the tolerance in the displacement, which counts
+        // in the residual.
         let below = solution.residual - independent.eta;
         assert!((0.0..0.2e-6).contains(&below), "{independent:?}, {}", solution.residual);
         assert!((independent.approach / solution.approach - 1.0).abs() < 1e-8);
@@ -390,8 +390,8 @@ fn a_uniform_contact_converges_by_every_method() {
 
 #[test]
 fn heights_far_from_zero_and_light_loads_are_the_same_contact() {
-    // In units of a micrometre, with nanometre heights at a distance of 3 m, under ever smaller loads that press one cell
-    // down.
+    // In units of a micrometre, with nanometre heights at a distance of 3 m, under ever smaller loads that
+    // press one cell down.
     for shape in [[12, 16], [40, 32]] {
         let grid = Grid::new(shape, [1e-6, 1e-6]).unwrap();
         // Heights with few digits, which an offset of 3 m leaves unchanged.

@@ -1,4 +1,5 @@
-//! A load sweep of a static contact: each point is an independent contact, and its stiffness is the slope of the curve.
+//! A load sweep of a static contact: each point is an independent contact, and its stiffness is the slope of
+//! the curve.
 
 use asperity_base::{Error, Grid};
 use asperity_contact::motion::{
@@ -88,8 +89,9 @@ fn in_any_order_each_point_is_the_contact_of_its_load_alone_bit_by_bit() {
     }
 }
 
-/// K is the slope of the load over the approach, compared with a central difference over ±0.2 % of the load on accurate
-/// pressures. It also holds beyond the elastic range, where the pressure of cells at the hardness is constant.
+/// K is the slope of the load over the approach, compared with a central difference over ±0.2 % of the load
+/// on accurate pressures. It also holds beyond the elastic range, where the pressure of cells at the hardness
+/// is constant.
 #[test]
 fn the_stiffness_is_the_slope_of_the_load_over_the_approach() {
     let mut random = ChaCha8Rng::seed_from_u64(3);

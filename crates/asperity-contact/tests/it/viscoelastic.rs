@@ -146,7 +146,8 @@ fn the_power_of_the_drag_is_what_the_dashpots_dissipate() {
         let (creep, gap) = (body(&mut random).creep(), gap(&mut random, shape));
         let speed = 0.8;
         let found = slide(grid, Boundary::PERIODIC, &creep, speed, &gap, Control::Load(0.3 * grid.area()));
-        // Each spring of a retardation time has a dashpot beside it, on which the pressure p − q acts, with ρ q̇ = p − q.
+        // Each spring of a retardation time has a dashpot beside it, on which the pressure p − q acts, with ρ
+        // q̇ = p − q.
         let mut power = 0.0;
         let [nx, ny] = shape.map(|n| n as isize);
         for (kx, ky) in (0..nx).flat_map(|kx| (0..ny).map(move |ky| (kx, ky))) {

@@ -1,4 +1,5 @@
-//! Passes of viscoelastic bodies against Boltzmann's superposition of dense equations, steady sliding and elastic bodies.
+//! Passes of viscoelastic bodies against Boltzmann's superposition of dense equations, steady sliding and
+//! elastic bodies.
 
 use asperity_contact::material::Material;
 use asperity_contact::motion::{Changes, LoadControl, Motion, Pair, Path, Simulation, SolvedPass, Strategy};
@@ -16,7 +17,8 @@ use crate::support::{archard, self_affine};
 const ROUND: Strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
 const FINE: Params = Params::new().with_tolerance(1e-10);
 
-/// The loads of a body so far: the time at the begin and at the end of each step, and the change of the elastic displacement in it.
+/// The loads of a body so far: the time at the begin and at the end of each step, and the change of the
+/// elastic displacement in it.
 struct Loads {
     creep: Creep,
     matrix: Vec<Vec<f64>>,
@@ -116,7 +118,8 @@ fn random_passes_are_those_of_boltzmanns_superposition() {
             .with_speed(random.random_range(0.3..3.0))
             .with_pause(pause)
             .with_stride(if is_shift { random.random_range(1..=lower + 1) } else { 1 });
-        // A round of a shift is as long as the bodies, whatever the stride: its last step ends where the next round begins.
+        // A round of a shift is as long as the bodies, whatever the stride: its last step ends where the next
+        // round begins.
         let speed = motion.time_of(1.0, 1.0).recip();
         let positions = motion.positions([lower, upper], width, 1).len();
         let strokes = if path == Path::Reciprocating { 2 } else { 1 };

@@ -1,5 +1,5 @@
-//! Elasto-plastic bodies that lose material, that warm up, and that meet a body with a hardness; laws and heat under plastic deformation at each
-//! position.
+//! Elasto-plastic bodies that lose material, that warm up, and that meet a body with a hardness; laws and
+//! heat under plastic deformation at each position.
 
 use std::sync::Arc;
 
@@ -189,7 +189,8 @@ fn yielding_bodies_have_the_flash_temperature_of_their_own_contacts() {
     }
 }
 
-/// Where nothing yields, positions that could have changed the bodies leave the contacts, the heat and the wear of frozen bodies.
+/// Where nothing yields, positions that could have changed the bodies leave the contacts, the heat and the
+/// wear of frozen bodies.
 #[test]
 fn heat_and_wear_at_each_position_are_those_after_the_pass_where_nothing_changes() {
     let of = |update, wear: f64| {
@@ -205,7 +206,8 @@ fn heat_and_wear_at_each_position_are_those_after_the_pass_where_nothing_changes
         let [pass, step] = [pass, step].map(|step| step.heat.unwrap().max_flash_temperature - BULK[0]);
         assert!((pass / step - 1.0).abs() < 1e-6, "{pass} {step}");
     }
-    // The difference of both grows as the square of the wear: each position meets what the ones before it have taken.
+    // The difference of both grows as the square of the wear: each position meets what the ones before it
+    // have taken.
     let difference = |wear: f64| {
         let [pass, step] = [PlasticUpdate::Pass, PlasticUpdate::Step].map(|update| of(update, wear));
         let [pass, step] = [&pass, &step].map(|kept| &kept.pairs[0].lower.heights);
@@ -342,7 +344,8 @@ fn bodies_that_never_yield_fret_as_elastic_ones() {
     assert!((a.mean_gap / b.mean_gap - 1.0).abs() < 1e-6 && a.contact_area == b.contact_area);
 }
 
-/// Each cycle wears off k/μ times the energy that friction takes in it, while the strain below stays with its material.
+/// Each cycle wears off k/μ times the energy that friction takes in it, while the strain below stays with its
+/// material.
 #[test]
 fn yielding_bodies_fret_off_what_their_friction_takes() {
     let worn = fretted(Some(1.5e9), 1e-15, 3);

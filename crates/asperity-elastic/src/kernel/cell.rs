@@ -3,15 +3,15 @@
 /// Beyond this number of half-sides the closed forms have lost too many digits.
 const FAR: f64 = 20.0;
 
-/// Computes ∬ k(x − ξ, y − η) dξ dη over a cell with half-sides `half`, for the solution k of a point load and the
-/// closed form F of its second indefinite integral:
+/// Computes ∬ k(x − ξ, y − η) dξ dη over a cell with half-sides `half`, for the solution k of a point load
+/// and the closed form F of its second indefinite integral:
 ///
 /// ```text
 /// F(x+a, y+b) − F(x−a, y+b) − F(x+a, y−b) + F(x−a, y−b)
 /// ```
 ///
-/// At distance r about 2 log₁₀(r/a) digits cancel in the four terms. Beyond r = 20 max(a, b) the integral uses 4 × 4
-/// Gauss points instead. Their error is less than (a/r)⁸/100 of the largest k at r.
+/// At distance r about 2 log₁₀(r/a) digits cancel in the four terms. Beyond r = 20 max(a, b) the integral
+/// uses 4 × 4 Gauss points instead. Their error is less than (a/r)⁸/100 of the largest k at r.
 pub(super) fn integral(
     at: [f64; 2],
     half: [f64; 2],
@@ -37,8 +37,8 @@ pub(super) fn integral_below(
     }
 }
 
-/// Computes the means over −b … b of η of [`integral`] at (x, y + 2bj + η), j below `columns`, for the closed form of its third indefinite
-/// integral, twice along y.
+/// Computes the means over −b … b of η of [`integral`] at (x, y + 2bj + η), j below `columns`, for the closed
+/// form of its third indefinite integral, twice along y.
 pub(super) fn means_across(
     [x, y]: [f64; 2],
     columns: usize,
@@ -83,7 +83,8 @@ fn by_quadrature(at: [f64; 2], half: [f64; 2], k: impl Fn(f64, f64) -> f64) -> f
     sum * half[0] * half[1]
 }
 
-/// Iterates over the 4 × 4 Gauss points of a cell, relative to the point `at`, and their weights, whose sum is 4.
+/// Iterates over the 4 × 4 Gauss points of a cell, relative to the point `at`, and their weights, whose sum
+/// is 4.
 pub(super) fn gauss_points([x, y]: [f64; 2], [a, b]: [f64; 2]) -> impl Iterator<Item = ([f64; 2], f64)> {
     /// Nodes and weights of the four-point Gauss rule.
     const NODES: [(f64, f64); 4] = [
@@ -96,8 +97,8 @@ pub(super) fn gauss_points([x, y]: [f64; 2], [a, b]: [f64; 2]) -> impl Iterator<
     NODES.into_iter().flat_map(move |(s, weight)| along_y(s, weight))
 }
 
-/// Returns X asinh(Y/|X|), which is 0 for X = 0: the closed form of y²/r³. With X and Y exchanged it is the closed
-/// form of x²/r³; the sum of both is that of 1/r.
+/// Returns X asinh(Y/|X|), which is 0 for X = 0: the closed form of y²/r³. With X and Y exchanged it is the
+/// closed form of x²/r³; the sum of both is that of 1/r.
 pub(super) fn asinh_term(x: f64, y: f64) -> f64 {
     if x == 0.0 { 0.0 } else { x * (y / x.abs()).asinh() }
 }
@@ -146,7 +147,8 @@ mod tests {
 
     #[test]
     fn near_the_cell_the_closed_forms_are_the_integrals() {
-        // Away from the cell a quadrature of its 64 parts is exact; the distance is that of the smallest part.
+        // Away from the cell a quadrature of its 64 parts is exact; the distance is that of the smallest
+        // part.
         for (closed, k) in ALL {
             for at in [[0.9, 0.1], [-0.7, 0.8], [0.0, -1.3], [2.3, -1.7], [0.05, 0.7]] {
                 let half = [0.5, 0.35];

@@ -35,8 +35,8 @@ impl Response for [SharedResponse; 2] {
 
 /// A half-space with a bonded elastic layer, pressed by a rigid body.
 ///
-/// For a layer (G₁, ν₁) of thickness t on a half-space (G₂, ν₂), with x = qt, θ = e^(−2x), a = 3 − 4ν₁, b = 3 − 4ν₂
-/// and μ = G₁/G₂,
+/// For a layer (G₁, ν₁) of thickness t on a half-space (G₂, ν₂), with x = qt, θ = e^(−2x), a = 3 − 4ν₁, b = 3
+/// − 4ν₂ and μ = G₁/G₂,
 ///
 /// ```text
 ///           1 − ν₁   1 + 4κxθ − λκθ²                          μb − a         μ − 1
@@ -71,8 +71,8 @@ impl CoatedHalfSpace {
         }
     }
 
-    /// Returns û of the wavenumber q > 0, m/Pa. It is exact to rounding, also for long waves on an incompressible
-    /// layer.
+    /// Returns û of the wavenumber q > 0, m/Pa. It is exact to rounding, also for long waves on an
+    /// incompressible layer.
     fn harmonic(&self, q: f64) -> f64 {
         let &Self { ratio: mu, constants: [a, b], thickness, .. } = self;
         let x = q * thickness;
@@ -83,7 +83,8 @@ impl CoatedHalfSpace {
             (1.0 + (4.0 * kappa * x - lambda * kappa * theta) * theta)
                 / (1.0 - (lambda + kappa + 4.0 * kappa * x * x - lambda * kappa * theta) * theta)
         } else {
-            // Both are divided by θ, without the cancelling terms: 1 − λκ, 1 + λ and (1 − λ)(1 − κ) are products.
+            // Both are divided by θ, without the cancelling terms: 1 − λκ, 1 + λ and (1 − λ)(1 − κ) are
+            // products.
             let scale = ((1.0 + mu * b) * (mu + a)).recip();
             let rest = mu * (1.0 + a) * (1.0 + b) * scale;
             let one_plus_lambda = (2.0 * mu * b + (1.0 - a)) / (1.0 + mu * b);
@@ -124,7 +125,8 @@ fn square_rest(x: f64) -> f64 {
     if x < 1.0 { 0.5 * series(16.0 * x.powi(4) / 24.0, 4.0 * x * x, 5.0) } else { x.sinh().powi(2) - x * x }
 }
 
-/// Sums a series from its first term. Each term is the previous one times `square`/n(n + 1), n = `from`, `from` + 2, ….
+/// Sums a series from its first term. Each term is the previous one times `square`/n(n + 1), n = `from`,
+/// `from` + 2, ….
 fn series(first: f64, square: f64, from: f64) -> f64 {
     let (mut term, mut sum, mut n) = (first, first, from);
     while term > f64::EPSILON * sum {
@@ -233,8 +235,9 @@ mod tests {
         .budget_ms(300);
     }
 
-    /// Computes the displacement minus that of a half-space of the layer material, by a sum over all directions
-    /// and wavenumbers of the remaining harmonics. It is slow, and independent of the closed forms and tables.
+    /// Computes the displacement minus that of a half-space of the layer material, by a sum over all
+    /// directions and wavenumbers of the remaining harmonics. It is slow, and independent of the closed forms
+    /// and tables.
     fn beyond_the_layer(body: &CoatedHalfSpace, at: [f64; 2], pitch: [f64; 2]) -> f64 {
         let short = body.layering.short;
         let end = 45.0 / body.layering.depth;

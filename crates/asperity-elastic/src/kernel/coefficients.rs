@@ -8,8 +8,8 @@
 /// ⎣u_z⎦   ⎣zx   zy   zz⎦ ⎣ p ⎦     q_x, q_y   on the lower body; the upper one bears the opposite
 /// ```
 ///
-/// xx, yy and zz are even in x and in y. xy is odd in both, zx is odd in x only, and zy is odd in y only. The matrix
-/// of all cells is symmetric and positive definite.
+/// xx, yy and zz are even in x and in y. xy is odd in both, zx is odd in x only, and zy is odd in y only. The
+/// matrix of all cells is symmetric and positive definite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coefficients {
     /// u_x under q_x.
@@ -33,8 +33,8 @@ impl Coefficients {
         [[xx, xy, -zx], [xy, yy, -zy], [zx, zy, zz]]
     }
 
-    /// Returns the coefficients at an offset with these signs, from the coefficients `self` at the offset with
-    /// positive signs. Odd coefficients vanish at 0.
+    /// Returns the coefficients at an offset with these signs, from the coefficients `self` at the offset
+    /// with positive signs. Odd coefficients vanish at 0.
     pub(super) fn at_offset(self, [x, y]: [f64; 2]) -> Self {
         Self { xy: x * y * self.xy, zx: x * self.zx, zy: y * self.zy, ..self }
     }

@@ -38,8 +38,8 @@ impl CoupledTable {
     }
 }
 
-/// Computes the dense influence matrix of a grid with all nine coefficients, m/Pa. `[m + i M, n + j M]` is the
-/// displacement along i of cell m of M per unit traction along j on cell n. Cells are numbered as in
+/// Computes the dense influence matrix of a grid with all nine coefficients, m/Pa. `[m + i M, n + j M]` is
+/// the displacement along i of cell m of M per unit traction along j on cell n. Cells are numbered as in
 /// [`super::influence_matrix`]. The matrix is symmetric and positive definite, and takes 72 M² bytes.
 pub fn coupled_matrix(shape: [usize; 2], pitch: [Metre; 2], response: &dyn CoupledResponse) -> Field {
     let table = CoupledTable::new(shape, pitch, response);
@@ -50,7 +50,8 @@ pub fn coupled_matrix(shape: [usize; 2], pitch: [Metre; 2], response: &dyn Coupl
     })
 }
 
-/// Computes the displacement of the pair at `(x, y)` per unit traction on the cell centred at the origin, m/Pa.
+/// Computes the displacement of the pair at `(x, y)` per unit traction on the cell centred at the origin,
+/// m/Pa.
 ///
 /// ```text
 /// π xx = I(1/r)/E* + I(x²/r³)/N*        π zx = I(x/r²)/G*
@@ -58,9 +59,9 @@ pub fn coupled_matrix(shape: [usize; 2], pitch: [Metre; 2], response: &dyn Coupl
 /// π xy = I(xy/r³)/N*                    π zz = I(1/r)/E*
 /// ```
 ///
-/// I is the integral over the cell of the solutions of Boussinesq and Cerruti for a point load. The error is below
-/// 1e-12 of the largest coefficient at that distance. Love (1929); Johnson (1985), eqs. 3.18, 3.25 and 3.75–3.80; Li
-/// and Berger, J. Tribol. 123, 1 (2001).
+/// I is the integral over the cell of the solutions of Boussinesq and Cerruti for a point load. The error is
+/// below 1e-12 of the largest coefficient at that distance. Love (1929); Johnson (1985), eqs. 3.18, 3.25 and
+/// 3.75–3.80; Li and Berger, J. Tribol. 123, 1 (2001).
 pub fn coupled_displacement(
     x: Metre,
     y: Metre,

@@ -11,8 +11,8 @@ use crate::units::{Metre, Pascal};
 
 /// Two homogeneous half-spaces: the solutions of Boussinesq and Cerruti, integrated over cells by Love.
 ///
-/// Created from a composite modulus E* it responds only to pressure. Created from the [`Compliances`] of a pair it
-/// also responds to shear.
+/// Created from a composite modulus E* it responds only to pressure. Created from the [`Compliances`] of a
+/// pair it also responds to shear.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfSpaces {
     modulus: Pascal,

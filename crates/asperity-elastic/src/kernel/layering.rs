@@ -7,8 +7,8 @@ use crate::kernel::{Influence, normal_displacement};
 use crate::math::gauss_legendre;
 use crate::units::Metre;
 
-/// Isotropic layered bodies with known harmonics. Short waves have the response of one half-space, long waves that of
-/// another one.
+/// Isotropic layered bodies with known harmonics. Short waves have the response of one half-space, long waves
+/// that of another one.
 ///
 /// The displacement under a cell follows from the harmonics û(q) in three parts:
 ///
@@ -16,9 +16,9 @@ use crate::units::Metre;
 /// û(q) = (2/q) [s + (b − s) e^(−qd)] + R(q)      s, b the compliances 1/E* of short and of long waves, d the depth
 /// ```
 ///
-/// The first part is a half-space, the second the potential of the cell at the depth d, both in closed form. R is
-/// bounded at q = 0 and decays as e^(−qd). Its Hankel transform ρ(r) = ∫ R(q) J₀(qr) q dq/2π is therefore smooth on
-/// the scale d. It is tabulated over r, and integrated over the cell.
+/// The first part is a half-space, the second the potential of the cell at the depth d, both in closed form.
+/// R is bounded at q = 0 and decays as e^(−qd). Its Hankel transform ρ(r) = ∫ R(q) J₀(qr) q dq/2π is
+/// therefore smooth on the scale d. It is tabulated over r, and integrated over the cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layering {
     /// Compliance 1/E* for short waves, 1/Pa, ≥ 0: the compliance of the uppermost layer.
@@ -31,11 +31,11 @@ pub struct Layering {
 }
 
 impl Layering {
-    /// Returns the displacement per unit pressure on a cell of size `pitch` of bodies with the `harmonics` û(q),
-    /// m/Pa, q > 0 in 1/m.
+    /// Returns the displacement per unit pressure on a cell of size `pitch` of bodies with the `harmonics`
+    /// û(q), m/Pa, q > 0 in 1/m.
     ///
-    /// The error is below 1e-11 of the displacement of a cell under its own pressure if û(q) is as exact and a
-    /// smooth function of ln q. This holds for any ratio of cell size to depth.
+    /// The error is below 1e-11 of the displacement of a cell under its own pressure if û(q) is as exact and
+    /// a smooth function of ln q. This holds for any ratio of cell size to depth.
     pub fn influence(&self, harmonics: impl Fn(f64) -> f64, pitch: [Metre; 2]) -> Box<dyn Influence> {
         let &Self { short, long, depth } = self;
         let rest = |q: f64| harmonics(q) - 2.0 / q * (short + (long - short) * (-q * depth).exp());
@@ -88,8 +88,8 @@ struct Remainder {
     nodes: Vec<(f64, f64)>,
 }
 
-/// Number of Chebyshev coefficients of an interval. The nearest singularity, at a distance of ±iπ/2, gives an error
-/// of 6⁻¹⁸.
+/// Number of Chebyshev coefficients of an interval. The nearest singularity, at a distance of ±iπ/2, gives an
+/// error of 6⁻¹⁸.
 const ORDER: usize = 18;
 /// Number of intervals, until the remainder has decayed to d²/r² = 1e-10 of the other terms.
 const PIECES: usize = 13;
@@ -116,8 +116,9 @@ impl Remainder {
         value * beyond / (squared + self.depth * self.depth)
     }
 
-    /// Computes ∬ ρ over 0 … x and 0 … y. In polar coordinates it is the integral of r² w over the angle. Each of
-    /// the two far sides contributes ∫ c w(√(c² + s²)) ds with its distance c and s = √(c² + d²) sinh v.
+    /// Computes ∬ ρ over 0 … x and 0 … y. In polar coordinates it is the integral of r² w over the angle.
+    /// Each of the two far sides contributes ∫ c w(√(c² + s²)) ds with its distance c and s = √(c² + d²) sinh
+    /// v.
     fn of_rectangle(&self, x: Metre, y: Metre) -> f64 {
         let side = |c: f64, length: f64| {
             let scale = c.hypot(self.depth);
@@ -137,8 +138,8 @@ impl Remainder {
         side(x, y) + side(y, x)
     }
 
-    /// Returns (r² + d²) times ρ or w. For r beyond the table it also returns d/r, by which ρ decays further, but
-    /// not w.
+    /// Returns (r² + d²) times ρ or w. For r beyond the table it also returns d/r, by which ρ decays further,
+    /// but not w.
     fn scaled(&self, r: Metre, which: usize) -> (f64, f64) {
         let s = (r / self.depth).asinh();
         let end = PIECES as f64;
@@ -150,8 +151,8 @@ impl Remainder {
 
 /// Computes `[ρ, w]` at `r` by Gauss' rule on panels that grow with q up to a few oscillations.
 ///
-/// At large r only the first oscillations contribute. The integrand is then tapered over many oscillations, which
-/// changes its transform by less than rounding.
+/// At large r only the first oscillations contribute. The integrand is then tapered over many oscillations,
+/// which changes its transform by less than rounding.
 fn hankel(rest: &impl Fn(f64) -> f64, r: Metre, depth: Metre, nodes: &[(f64, f64)]) -> [f64; 2] {
     /// Lower limit of the integral, in units of 1/r and 1/d. The omitted part is below its square.
     const FIRST: f64 = 1e-7;

@@ -9,10 +9,11 @@ use crate::material::Compliances;
 use crate::math::{gauss_legendre, parallel};
 use crate::units::{Metre, Pascal};
 
-/// An endless line of cells along an axis, with period L, for contacts that are periodic along this axis only.
+/// An endless line of cells along an axis, with period L, for contacts that are periodic along this axis
+/// only.
 ///
-/// Its coefficients are those of a cell, summed over the line. With r across the line, t along it, and k = 2πm/L, the
-/// displacement under a force is
+/// Its coefficients are those of a cell, summed over the line. With r across the line, t along it, and k =
+/// 2πm/L, the displacement under a force is
 ///
 /// ```text
 /// Σ 1/√(r² + (t + nL)²) = −(2/L) ln(r/r₀) + (4/L) Σ_{m>0} K₀(kr) cos kt
@@ -31,8 +32,8 @@ pub struct Line {
 }
 
 impl Line {
-    /// Returns the normal displacement of the pair at `(x, y)` per unit pressure on each cell of size `pitch`,
-    /// m/Pa. One of the cells is centred at the origin. See [`crate::kernel::normal_displacement`].
+    /// Returns the normal displacement of the pair at `(x, y)` per unit pressure on each cell of size
+    /// `pitch`, m/Pa. One of the cells is centred at the origin. See [`crate::kernel::normal_displacement`].
     ///
     /// The error is below 1e-12 of the displacement of a cell under its own pressure.
     pub fn normal_displacement(&self, x: Metre, y: Metre, pitch: [Metre; 2], modulus: Pascal) -> f64 {
@@ -46,8 +47,9 @@ impl Line {
         [-1.0, 0.0, 1.0].map(|n| folded + n * self.period)
     }
 
-    /// Returns the normal displacement at `(x, j Δy)`, j below `columns`, by all cells of a line along y but the three
-    /// [nearest](Self::nearest), m/Pa; its mean over the width of a cell along y if `across`. It is smooth.
+    /// Returns the normal displacement at `(x, j Δy)`, j below `columns`, by all cells of a line along y but
+    /// the three [nearest](Self::nearest), m/Pa; its mean over the width of a cell along y if `across`. It is
+    /// smooth.
     pub fn beyond_nearest(
         &self,
         x: Metre,
@@ -75,8 +77,8 @@ impl Line {
         (0..columns).map(at).collect()
     }
 
-    /// Returns the displacement of the pair at `(x, y)` per unit traction on each cell of size `pitch`, m/Pa. One
-    /// of the cells is centred at the origin. See [`crate::kernel::coupled_displacement`].
+    /// Returns the displacement of the pair at `(x, y)` per unit traction on each cell of size `pitch`, m/Pa.
+    /// One of the cells is centred at the origin. See [`crate::kernel::coupled_displacement`].
     ///
     /// The error is below 1e-12 of the displacement of a cell under its own traction.
     pub fn coupled_displacement(
@@ -123,11 +125,11 @@ impl Line {
     }
 }
 
-/// Beyond this number of periods from its edge, a line of cells acts as a uniform line, with a relative error below
-/// 2e-17.
+/// Beyond this number of periods from its edge, a line of cells acts as a uniform line, with a relative error
+/// below 2e-17.
 const FAR: f64 = 6.0;
-/// Cells of the line are summed one by one until all distances are below this fraction of the distance of the first
-/// cell in the series, which also limits the size of a cell.
+/// Cells of the line are summed one by one until all distances are below this fraction of the distance of the
+/// first cell in the series, which also limits the size of a cell.
 const REACH: f64 = 0.25;
 /// Largest size of a cell relative to the distance of the first cell in the series.
 const SMOOTH: f64 = 1.0 / 32.0;
@@ -325,7 +327,8 @@ mod tests {
         Compliances::new(&lower, &upper).unwrap()
     }
 
-    /// Cells, periods and offsets of all kinds: fine and coarse, long and narrow, one cell a period, near and far.
+    /// Cells, periods and offsets of all kinds: fine and coarse, long and narrow, one cell a period, near and
+    /// far.
     fn samples() -> Vec<([f64; 2], f64, [f64; 2])> {
         let mut samples = Vec::new();
         for (pitch, period) in [

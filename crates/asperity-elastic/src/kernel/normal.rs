@@ -7,21 +7,23 @@ use crate::kernel::cell::{asinh_term, integral, means_across};
 use crate::math::parallel;
 use crate::units::{Metre, Pascal};
 
-/// Computes the normal displacement of the pair at `(x, y)` per unit pressure on the cell centred at the origin, m/Pa.
+/// Computes the normal displacement of the pair at `(x, y)` per unit pressure on the cell centred at the
+/// origin, m/Pa.
 ///
 /// ```text
 /// πE* u = F(x+a, y+b) − F(x−a, y+b) − F(x+a, y−b) + F(x−a, y−b),  F(s,t) = s asinh(t/|s|) + t asinh(s/|t|)
 /// ```
 ///
-/// `a` and `b` are half the `pitch`, and `modulus` is the composite modulus E*. Far from the cell, where these terms
-/// cancel, a quadrature of 1/r is used. The relative error is below 1e-12 everywhere.
-/// Love, Phil. Trans. R. Soc. A 228, 377 (1929); Johnson (1985), eq. 3.25.
+/// `a` and `b` are half the `pitch`, and `modulus` is the composite modulus E*. Far from the cell, where
+/// these terms cancel, a quadrature of 1/r is used. The relative error is below 1e-12 everywhere. Love, Phil.
+/// Trans. R. Soc. A 228, 377 (1929); Johnson (1985), eq. 3.25.
 pub fn normal_displacement(x: Metre, y: Metre, pitch: [Metre; 2], modulus: Pascal) -> f64 {
     let closed = |x, y| asinh_term(x, y) + asinh_term(y, x);
     integral([x, y], pitch.map(|p| 0.5 * p), closed, |x, y| 1.0 / (x * x + y * y).sqrt()) / (PI * modulus)
 }
 
-/// Computes the means of [`normal_displacement`] at `x` over the widths of `columns` cells along y, of which the first is centred at `y`, m/Pa.
+/// Computes the means of [`normal_displacement`] at `x` over the widths of `columns` cells along y, of which
+/// the first is centred at `y`, m/Pa.
 ///
 /// ```text
 /// πE*Δy ū = Σ± ±[G(x±a, y+2b) − 2G(x±a, y) + G(x±a, y−2b)],  G(s,t) = t (s asinh(t/|s|) + t asinh(s/|t|)/2) − s √(s² + t²)/2
@@ -39,20 +41,20 @@ pub fn normal_displacements_across(
     means
 }
 
-/// Returns the coefficients of all cells `[i, j]` at offsets `(i Δx, j Δy)`, m/Pa: the first row of the influence
-/// matrix.
+/// Returns the coefficients of all cells `[i, j]` at offsets `(i Δx, j Δy)`, m/Pa: the first row of the
+/// influence matrix.
 pub fn influence_table(shape: [usize; 2], pitch: [Metre; 2], modulus: Pascal) -> Field {
     parallel::field(shape, |i, j| {
         normal_displacement(i as f64 * pitch[0], j as f64 * pitch[1], pitch, modulus)
     })
 }
 
-/// Computes the dense influence matrix of a grid, m/Pa: `[m, n]` is the displacement of cell m per unit pressure on
-/// cell n.
+/// Computes the dense influence matrix of a grid, m/Pa: `[m, n]` is the displacement of cell m per unit
+/// pressure on cell n.
 ///
-/// Cells are numbered column by column, m = ix ny + iy with x the direction of motion. A coefficient depends only on
-/// the distance, so that the matrix of an overlap of fewer columns is the leading block of this one. It takes 8 n²
-/// bytes for n cells.
+/// Cells are numbered column by column, m = ix ny + iy with x the direction of motion. A coefficient depends
+/// only on the distance, so that the matrix of an overlap of fewer columns is the leading block of this one.
+/// It takes 8 n² bytes for n cells.
 pub fn influence_matrix(shape: [usize; 2], pitch: [Metre; 2], modulus: Pascal) -> Field {
     let table = influence_table(shape, pitch, modulus);
     let (cells, width) = (shape[0] * shape[1], shape[1]);

@@ -1,10 +1,10 @@
 //! Stress in a half-space under a uniformly loaded rectangle, and under a harmonic traction.
 //!
-//! z points into the body, stress is positive in tension. On the surface z = 0 act the pressure p ≥ 0, along +z, and
-//! the shear tractions q_x and q_y along +x and +y, so that there σzz = −p, σxz = −q_x, σyz = −q_y.
+//! z points into the body, stress is positive in tension. On the surface z = 0 act the pressure p ≥ 0, along
+//! +z, and the shear tractions q_x and q_y along +x and +y, so that there σzz = −p, σxz = −q_x, σyz = −q_y.
 //!
-//! All stresses are derivatives of the potentials V = ∬ 1/R, ψ = ∬ ln(R + z) and F = ∬ [z ln(R + z) − R] over the
-//! loaded area, with R the distance to its points. Per unit traction, with subscripts for derivatives,
+//! All stresses are derivatives of the potentials V = ∬ 1/R, ψ = ∬ ln(R + z) and F = ∬ [z ln(R + z) − R] over
+//! the loaded area, with R the distance to its points. Per unit traction, with subscripts for derivatives,
 //!
 //! ```text
 //! 2π σ    under p                                under q_x
@@ -16,8 +16,8 @@
 //! xy      −(1 − 2ν) ψ_xy − z V_xy                V_y + 2ν F_xxy − z ψ_xxy
 //! ```
 //!
-//! The stresses under q_y follow from an exchange of x and y. Love, Phil. Trans. R. Soc. A 228, 377 (1929); Johnson
-//! (1985), sections 3.2–3.6.
+//! The stresses under q_y follow from an exchange of x and y. Love, Phil. Trans. R. Soc. A 228, 377 (1929);
+//! Johnson (1985), sections 3.2–3.6.
 
 use std::f64::consts::FRAC_1_PI;
 
@@ -56,9 +56,9 @@ impl Traction {
 /// 2π σ = S(x+a, y+b) − S(x−a, y+b) − S(x+a, y−b) + S(x−a, y−b)
 /// ```
 ///
-/// `a` and `b` are half the `pitch`, and S are the indefinite integrals of the potentials over x and y. The error is
-/// about 1e-16 of the traction, so that at distance r about 2 log₁₀(r/a) digits are lost. At depth 0 the result is
-/// the limit from inside. On the edges of the cell it is NaN or infinite.
+/// `a` and `b` are half the `pitch`, and S are the indefinite integrals of the potentials over x and y. The
+/// error is about 1e-16 of the traction, so that at distance r about 2 log₁₀(r/a) digits are lost. At depth 0
+/// the result is the limit from inside. On the edges of the cell it is NaN or infinite.
 pub fn cell_stress(
     [x, y]: [Metre; 2],
     depth: Metre,
@@ -73,8 +73,9 @@ pub fn cell_stress(
     }))
 }
 
-/// Passes the `component` of [`cell_stress`] to `take`, line after line along `axis`: the number of a line, which counts the
-/// pitches across it from 0, and its values at the offsets from 0 along it. `lines` and `along` are their numbers.
+/// Passes the `component` of [`cell_stress`] to `take`, line after line along `axis`: the number of a line,
+/// which counts the pitches across it from 0, and its values at the offsets from 0 along it. `lines` and
+/// `along` are their numbers.
 ///
 /// The values are equal to those of [`stress_table`]. Only two lines are held.
 #[expect(clippy::too_many_arguments, reason = "all of a cell, and of the lines")]
@@ -110,10 +111,11 @@ pub fn stress_lines(
     }
 }
 
-/// Computes the `component` under a strip of cells without end along `axis`, at the distances `i Δ` across it, per unit traction.
+/// Computes the `component` under a strip of cells without end along `axis`, at the distances `i Δ` across
+/// it, per unit traction.
 ///
-/// Its error is some 1e-10 of the traction: the strip is a cell that is 10¹⁰ times as long as the distances are large, and the
-/// stress along a cell misses that of a strip by the ratio of width and length.
+/// Its error is some 1e-10 of the traction: the strip is a cell that is 10¹⁰ times as long as the distances
+/// are large, and the stress along a cell misses that of a strip by the ratio of width and length.
 pub fn strip_stress(
     count: usize,
     axis: usize,
@@ -155,12 +157,12 @@ pub fn stress_table(
     table
 }
 
-/// Computes the `component` at `depth` per unit of the harmonic traction e^{i(k x + l y)}. It has a factor i if
-/// [`Traction::odd`] is true for exactly one of x and y.
+/// Computes the `component` at `depth` per unit of the harmonic traction e^{i(k x + l y)}. It has a factor i
+/// if [`Traction::odd`] is true for exactly one of x and y.
 ///
-/// The potentials of a harmonic are V = 2π e^{−qz}/q, ψ = −V/q, F = V/q², q = √(k² + l²). For example, σzz = −(1 +
-/// qz) e^{−qz} p. At q = 0 the traction is uniform, and the body cannot widen: σzz = −p, σxx = σyy = −ν p/(1 − ν),
-/// σxz = −q_x, σyz = −q_y.
+/// The potentials of a harmonic are V = 2π e^{−qz}/q, ψ = −V/q, F = V/q², q = √(k² + l²). For example, σzz =
+/// −(1 + qz) e^{−qz} p. At q = 0 the traction is uniform, and the body cannot widen: σzz = −p, σxx = σyy = −ν
+/// p/(1 − ν), σxz = −q_x, σyz = −q_y.
 pub fn harmonic_stress(
     [k, l]: [f64; 2],
     depth: Metre,
@@ -210,9 +212,9 @@ fn canonical(component: Component, traction: Traction, at: [f64; 2]) -> (Compone
     }
 }
 
-/// Computes S: the formulas above with the potentials integrated over a quadrant whose corner lies at distance (x,
-/// y). Terms that depend only on x or only on y are omitted or added, so that each term is even or odd and bounded
-/// for z > 0:
+/// Computes S: the formulas above with the potentials integrated over a quadrant whose corner lies at
+/// distance (x, y). Terms that depend only on x or only on y are omitted or added, so that each term is even
+/// or odd and bounded for z > 0:
 ///
 /// ```text
 /// V_x  = asinh(y/√(x² + z²))     V_z  = −atan(xy/zR)             ψ_xx = atan(y/x) − atan(yz/xR)
@@ -259,8 +261,8 @@ mod tests {
         cell_stress([at[0], at[1]], at[2], CELL, poisson, traction).components()
     }
 
-    /// Values of an independent program, which differentiates the same potentials at the corners and checks them
-    /// by Hooke's law on its displacements.
+    /// Values of an independent program, which differentiates the same potentials at the corners and checks
+    /// them by Hooke's law on its displacements.
     #[test]
     fn it_is_what_an_independent_program_finds() {
         #[rustfmt::skip]
@@ -368,7 +370,8 @@ mod tests {
 
     #[test]
     fn far_away_it_is_the_point_load() {
-        // Boussinesq: σzz = −3Pz³/2πR⁵. Cerruti: σzz = −3Qxz²/2πR⁵. The next term of the series is of order (a/r)².
+        // Boussinesq: σzz = −3Pz³/2πR⁵. Cerruti: σzz = −3Qxz²/2πR⁵. The next term of the series is of order
+        // (a/r)².
         let area = CELL[0] * CELL[1];
         for distance in [10.0, 100.0, 1000.0] {
             let [x, y, z] = [0.6, 0.48, 0.64].map(|cosine| cosine * distance);

@@ -20,8 +20,8 @@ pub struct Material {
     pub poisson: f64,
     /// Hardness, > 0: the largest pressure that the body can carry; infinite for an elastic body.
     pub hardness: Pascal,
-    /// Coating of the body, if any. The elastic constants above belong to the substrate. The hardness caps the pressure,
-    /// whether the coating or the substrate yields.
+    /// Coating of the body, if any. The elastic constants above belong to the substrate. The hardness caps
+    /// the pressure, whether the coating or the substrate yields.
     pub coating: Option<Coating>,
 }
 
@@ -121,9 +121,10 @@ impl Material {
 /// 1/N* = ν₁(1 + ν₁)/E₁ + ν₂(1 + ν₂)/E₂                              lateral
 /// 1/G* = (1 + ν₁)(1 − 2ν₁)/2E₁ − (1 + ν₂)(1 − 2ν₂)/2E₂              coupling
 /// ```
-/// A normal traction acts on 1/E* alone, a tangential one on 1/E* and 1/N*. 1/G* couples normal tractions to tangential
-/// displacements, and tangential tractions to normal ones. It vanishes for identical materials and for two incompressible
-/// ones, and is negative if the lower body is the stiffer. Johnson (1985), ch. 3 and 5.
+/// A normal traction acts on 1/E* alone, a tangential one on 1/E* and 1/N*. 1/G* couples normal tractions to
+/// tangential displacements, and tangential tractions to normal ones. It vanishes for identical materials and
+/// for two incompressible ones, and is negative if the lower body is the stiffer. Johnson (1985), ch. 3 and
+/// 5.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compliances {
     /// 1/E* > 0; 0 for rigid bodies if one is coated.
@@ -188,8 +189,8 @@ pub fn composite_hardness(lower: &Material, upper: &Material) -> Pascal {
     lower.hardness.min(upper.hardness)
 }
 
-/// Share of the lower body in the plastic deformation: 1 if it is the softer, 0 if it is the harder, 1/2 if both are
-/// equally hard.
+/// Share of the lower body in the plastic deformation: 1 if it is the softer, 0 if it is the harder, 1/2 if
+/// both are equally hard.
 pub fn plastic_share(lower: Pascal, upper: Pascal) -> f64 {
     match lower.partial_cmp(&upper) {
         Some(std::cmp::Ordering::Less) => 1.0,

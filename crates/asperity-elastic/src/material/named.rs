@@ -269,7 +269,8 @@ const OTHER_NAMES: &[(&str, &str)] = &[
     ("plexiglas", "pmma"),
 ];
 
-/// Returns the name of the material that another name means: in other letters, a symbol, or a grade such as 100Cr6.
+/// Returns the name of the material that another name means: in other letters, a symbol, or a grade such as
+/// 100Cr6.
 fn meant(word: &str) -> Option<&'static str> {
     let plain = |text: &str| text.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
     let wanted = plain(word);

@@ -17,8 +17,8 @@ pub struct Cholesky {
 
 impl Cholesky {
     /// Factorises A in place, block column by block column from the left (Golub and Van Loan, Matrix
-    /// Computations, §4.2). Only the lower triangle of A is read. Returns `None` if A is not positive definite to
-    /// round-off.
+    /// Computations, §4.2). Only the lower triangle of A is read. Returns `None` if A is not positive
+    /// definite to round-off.
     ///
     /// # Panics
     /// If A is not square.
@@ -54,7 +54,8 @@ impl Cholesky {
     }
 }
 
-/// Factorises a block column from its diagonal down: its left half, then its right half after subtraction of the left.
+/// Factorises a block column from its diagonal down: its left half, then its right half after subtraction of
+/// the left.
 fn factorise(mut column: ArrayViewMut2<f64>) -> Option<()> {
     let size = column.ncols();
     if size <= LEAF {

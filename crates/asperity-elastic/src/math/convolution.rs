@@ -15,8 +15,8 @@ use asperity_base::math::plans::{Plans, real};
 
 /// Number of columns that are transformed together: one or two cache lines of a row.
 const STRIP: usize = 8;
-/// Padding between the columns of a strip. Without it, columns with a power of two as length would map to the same
-/// cache lines.
+/// Padding between the columns of a strip. Without it, columns with a power of two as length would map to the
+/// same cache lines.
 const ROOM: usize = 8;
 
 /// Symmetry of a kernel under a change of sign of an offset.
@@ -40,7 +40,8 @@ impl Parity {
         }
     }
 
-    /// Returns the nonzero part of the transform of a real kernel of this parity: the real or the imaginary part.
+    /// Returns the nonzero part of the transform of a real kernel of this parity: the real or the imaginary
+    /// part.
     fn part(self, value: Complex<f64>) -> f64 {
         match self {
             Self::Even => value.re,
@@ -114,13 +115,13 @@ pub fn kernel_of_values(shape: [usize; 2], table: &Field) -> Kernel<f64> {
     Kernel::new(plans, spectrum)
 }
 
-/// Convolution of fields of one shape with a [`Kernel`] of at least this shape. Values beyond the field are zero.
-/// With a kernel of at least `2n − 1` along each axis the cyclic convolution equals the free one.
+/// Convolution of fields of one shape with a [`Kernel`] of at least this shape. Values beyond the field are
+/// zero. With a kernel of at least `2n − 1` along each axis the cyclic convolution equals the free one.
 ///
-/// Rows of zeros are not transformed. Columns are transformed in strips: forward, through the kernel and back while
-/// they are in cache. Only the rows of the field are transformed back. With a kernel of twice the size this takes
-/// about half the work of full transforms. Rows and strips are processed in parallel. A single thread allocates
-/// nothing after construction.
+/// Rows of zeros are not transformed. Columns are transformed in strips: forward, through the kernel and back
+/// while they are in cache. Only the rows of the field are transformed back. With a kernel of twice the size
+/// this takes about half the work of full transforms. Rows and strips are processed in parallel. A single
+/// thread allocates nothing after construction.
 pub struct Convolution<T> {
     kernel: Arc<Kernel<T>>,
     transform: Transform<T>,

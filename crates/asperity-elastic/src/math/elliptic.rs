@@ -14,8 +14,8 @@ pub struct CompleteElliptic {
 }
 
 impl CompleteElliptic {
-    /// Computes the integrals by the arithmetic–geometric mean, from the complementary modulus k′ = √(1 − m), 0 ≤
-    /// k′ ≤ 1. For an ellipse k′ is the ratio of the semi-axes. K and D are infinite at k′ = 0.
+    /// Computes the integrals by the arithmetic–geometric mean, from the complementary modulus k′ = √(1 − m),
+    /// 0 ≤ k′ ≤ 1. For an ellipse k′ is the ratio of the semi-axes. K and D are infinite at k′ = 0.
     ///
     /// K = π/(2 agm(1, k′)),  D = K (½ + Σ 2ⁿ⁻¹ cₙ²/m),  cₙ = (aₙ₋₁ − bₙ₋₁)/2. Relative accuracy 4e-15 for
     /// k′ > 1e-6; E loses another ln(4/k′) of it.

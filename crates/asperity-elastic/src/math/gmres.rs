@@ -12,14 +12,14 @@ pub struct Gmres<T> {
     pub solution: Vec<T>,
     /// Number of products `A v`.
     pub products: usize,
-    /// Whether an even number of the real Ritz values is below 0. False if A has one negative eigenvalue, and the products suffice to
-    /// show it.
+    /// Whether an even number of the real Ritz values is below 0. False if A has one negative eigenvalue, and
+    /// the products suffice to show it.
     pub(crate) is_positive: bool,
 }
 
-/// Computes an approximate solution x of A x = b with the smallest residual in a Krylov space, for any matrix A with
-/// the product `A v`. It stops when the residual is the fraction `reduction` of b, or after `max_products` products. In single
-/// precision it reduces the residual to about 10⁻⁶ of b.
+/// Computes an approximate solution x of A x = b with the smallest residual in a Krylov space, for any matrix
+/// A with the product `A v`. It stops when the residual is the fraction `reduction` of b, or after
+/// `max_products` products. In single precision it reduces the residual to about 10⁻⁶ of b.
 ///
 /// Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 856 (1986).
 pub fn gmres<T: Precision + Into<f64>>(
@@ -85,8 +85,8 @@ pub fn gmres<T: Precision + Into<f64>>(
     Gmres { solution, products, is_positive }
 }
 
-/// Subtracts a multiple of the vector `v` from the vector `next`. Returns the scalar product of the result with another
-/// vector, or with itself.
+/// Subtracts a multiple of the vector `v` from the vector `next`. Returns the scalar product of the result
+/// with another vector, or with itself.
 fn subtract<T: Precision + Into<f64>>(next: &mut [T], multiple: f64, v: &[T], other: Option<&[T]>) -> f64 {
     let multiple = number::<T>(multiple);
     let bands = Bands::of([next.len(), 1]);

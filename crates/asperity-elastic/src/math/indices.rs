@@ -3,8 +3,8 @@
 /// Number of values that are tested together.
 const SOME: usize = 16;
 
-/// Iterates over the indices of the `values` that satisfy a condition, in increasing order. It is fastest with
-/// `for_each` if few values satisfy it.
+/// Iterates over the indices of the `values` that satisfy a condition, in increasing order. It is fastest
+/// with `for_each` if few values satisfy it.
 pub(crate) fn indices_where<'a, T>(
     values: &'a [T],
     is_so: impl Fn(&T) -> bool + Copy + 'a,

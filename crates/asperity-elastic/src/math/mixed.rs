@@ -29,7 +29,8 @@ impl MixedKernel {
     }
 }
 
-/// Convolution of fields of one shape in either precision. It holds the scratch memory of the precision used last.
+/// Convolution of fields of one shape in either precision. It holds the scratch memory of the precision used
+/// last.
 pub(crate) struct MixedConvolution {
     /// The kernel, which other convolutions may share.
     pub(crate) kernel: Arc<MixedKernel>,
@@ -76,8 +77,8 @@ impl MixedConvolution {
     }
 }
 
-/// Convolution of three fields of one shape with a tensor of kernels in either precision; see [`MixedConvolution`]
-/// for one field.
+/// Convolution of three fields of one shape with a tensor of kernels in either precision; see
+/// [`MixedConvolution`] for one field.
 pub(crate) struct MixedTensorConvolution {
     kernel: Arc<MixedTensorKernel>,
     shape: [usize; 2],

@@ -1,5 +1,5 @@
-//! A near copy of a convolution that takes a fraction of its time: stencils on three levels, and a transform of 1/64 of
-//! the cells.
+//! A near copy of a convolution that takes a fraction of its time: stencils on three levels, and a transform
+//! of 1/64 of the cells.
 
 use std::sync::Arc;
 
@@ -41,8 +41,9 @@ const ROOM: usize = 4;
 /// G  = S₁ + P G₁ P'/4      and so on; the last G is a convolution by transforms
 /// ```
 ///
-/// A coarse wave stands for four fine ones. G is the best one for each coarse wave, in the energy norm of K, and S the
-/// stencil that makes the largest error least. The copy is within a tenth of K in the energy norm, on any cells.
+/// A coarse wave stands for four fine ones. G is the best one for each coarse wave, in the energy norm of K,
+/// and S the stencil that makes the largest error least. The copy is within a tenth of K in the energy norm,
+/// on any cells.
 pub(crate) struct NearKernel {
     /// Size of the transforms of the kernel. Fields of this size along an axis are periodic along it.
     shape: [usize; 2],
@@ -58,8 +59,8 @@ struct Stencil {
 }
 
 impl NearKernel {
-    /// Designs the copy of a `kernel`. Returns none if no copy is near enough, or if the size of the transforms cannot be
-    /// halved often enough.
+    /// Designs the copy of a `kernel`. Returns none if no copy is near enough, or if the size of the
+    /// transforms cannot be halved often enough.
     pub(crate) fn new(kernel: &Kernel<f64>) -> Option<Self> {
         let shape = kernel.plans.shape;
         let halves =
@@ -75,7 +76,8 @@ impl NearKernel {
     }
 }
 
-/// A kernel to be approximated on one level, in Fourier space: values at `[ky, kx]` for `ky ≤ My/2`, `kx ≤ Mx/2`.
+/// A kernel to be approximated on one level, in Fourier space: values at `[ky, kx]` for `ky ≤ My/2`,
+/// `kx ≤ Mx/2`.
 struct Rest {
     shape: [usize; 2],
     symbol: Field,
@@ -246,7 +248,8 @@ fn multiplicity(i: usize) -> f64 {
     if i == 0 { 1.0 } else { 2.0 }
 }
 
-/// Returns the symbol of a stencil that is 1 at the offsets ±i, ±j, for the bin `[ky, kx]` of a grid of `shape`.
+/// Returns the symbol of a stencil that is 1 at the offsets ±i, ±j, for the bin `[ky, kx]` of a grid of
+/// `shape`.
 fn wave_of([i, j]: [usize; 2], [ky, kx]: [usize; 2], shape: [usize; 2]) -> f64 {
     let cosine = |i: usize, k: usize, m: usize| {
         multiplicity(i) * (std::f64::consts::TAU * (k * i) as f64 / m as f64).cos()
@@ -254,8 +257,8 @@ fn wave_of([i, j]: [usize; 2], [ky, kx]: [usize; 2], shape: [usize; 2]) -> f64 {
     cosine(i, kx, shape[0]) * cosine(j, ky, shape[1])
 }
 
-/// The error D (T − S − G a aᵀ) D over the four waves of a coarse one: a diagonal part, linear in the stencil, without
-/// the best multiple of v vᵀ.
+/// The error D (T − S − G a aᵀ) D over the four waves of a coarse one: a diagonal part, linear in the
+/// stencil, without the best multiple of v vᵀ.
 struct Wave {
     /// The diagonal of v vᵀ.
     smooth: [f64; 4],
@@ -338,8 +341,8 @@ impl Stencil {
 struct Place {
     /// Number of cells along the axis.
     cells: usize,
-    /// Index of the cell at the origin. Beyond a free border there is one more cell on each coarse level, to which P'
-    /// spreads.
+    /// Index of the cell at the origin. Beyond a free border there is one more cell on each coarse level, to
+    /// which P' spreads.
     origin: usize,
     wraps: bool,
 }
@@ -601,7 +604,8 @@ mod tests {
         kernel_of_values(shape, &table)
     }
 
-    /// Returns |K~ x − K x| in the norm of K⁻¹ over that of x in the norm of K, at most the distance of the copy.
+    /// Returns |K~ x − K x| in the norm of K⁻¹ over that of x in the norm of K, at most the distance of the
+    /// copy.
     fn distance(kernel: Kernel<f64>, shape: [usize; 2], x: &SingleField) -> f64 {
         let near = NearKernel::new(&kernel).expect("a near copy");
         let (mut copy, mut exact) = (SingleField::zeros(shape), Field::zeros(shape));

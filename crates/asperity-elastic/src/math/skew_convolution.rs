@@ -34,8 +34,8 @@ impl SkewKernel {
         Self::normalised(plans, spectrum)
     }
 
-    /// Creates the kernel on a cyclic grid of `shape` with this `transform` at the bins `(kx, ky)`, for all kx
-    /// and `ky ≤ My/2`. At the Nyquist bin of an even period along x only the real part is used.
+    /// Creates the kernel on a cyclic grid of `shape` with this `transform` at the bins `(kx, ky)`, for all
+    /// kx and `ky ≤ My/2`. At the Nyquist bin of an even period along x only the real part is used.
     pub fn from_transform(shape: [usize; 2], transform: impl Fn(usize, usize) -> Complex64) -> Self {
         let plans = Plans::new(shape);
         let spectrum = Array2::from_shape_fn([plans.half(), shape[0]], |(ky, kx)| {

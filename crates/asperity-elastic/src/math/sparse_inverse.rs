@@ -1,8 +1,8 @@
 //! A factorised sparse approximate inverse of an influence matrix on some of the cells of a grid.
 
-/// The factorised sparse approximate inverse GᵀG ≈ C⁻¹ of the influence matrix C on the free cells. Row i of G solves
-/// `C_JJ y = e_i`, divided by √y_i, where J are the free cells among the cell and its causal neighbours. Kolotilina
-/// and Yeremin, SIAM J. Matrix Anal. Appl. 14, 45 (1993).
+/// The factorised sparse approximate inverse GᵀG ≈ C⁻¹ of the influence matrix C on the free cells. Row i of
+/// G solves `C_JJ y = e_i`, divided by √y_i, where J are the free cells among the cell and its causal
+/// neighbours. Kolotilina and Yeremin, SIAM J. Matrix Anal. Appl. 14, 45 (1993).
 ///
 /// A row depends only on which of the neighbours are free, so there are 64 different rows.
 pub struct SparseInverse {
@@ -88,9 +88,9 @@ impl SparseInverse {
         pattern | across
     }
 
-    /// Computes the patterns of the cells of a row, for cells that are free or not: `patterns[iy]`, except for the first
-    /// two cells and the last one. `own` and `above` are whether the cells of the row and of the two rows before it are
-    /// free, the nearer one first; empty without such a row.
+    /// Computes the patterns of the cells of a row, for cells that are free or not: `patterns[iy]`, except
+    /// for the first two cells and the last one. `own` and `above` are whether the cells of the row and of
+    /// the two rows before it are free, the nearer one first; empty without such a row.
     pub(crate) fn inner_patterns<T>(
         own: &[T],
         above: [&[T]; 2],
@@ -118,11 +118,12 @@ impl SparseInverse {
         }
     }
 
-    /// Adds GᵀG r to `z` for the free `cells` of some rows, each with its pattern. Returns the sum of squares of G r.
+    /// Adds GᵀG r to `z` for the free `cells` of some rows, each with its pattern. Returns the sum of squares
+    /// of G r.
     ///
-    /// In addition to these rows, `r` and `z` have the [`ROWS_ABOVE`] rows before them, and cells count from the
-    /// first cell of these. Before the first row of a grid they are the last rows if it wraps along x, otherwise
-    /// zero. `r` is zero for cells that are not free.
+    /// In addition to these rows, `r` and `z` have the [`ROWS_ABOVE`] rows before them, and cells count from
+    /// the first cell of these. Before the first row of a grid they are the last rows if it wraps along x,
+    /// otherwise zero. `r` is zero for cells that are not free.
     pub fn add(&self, cells: impl Iterator<Item = (usize, u8)>, r: &[f32], z: &mut [f32]) -> f64 {
         let mut squares = 0.0;
         let ny = self.shape[1];
@@ -148,8 +149,8 @@ impl SparseInverse {
     }
 }
 
-/// Computes the last column of the inverse of the leading `n` × `n` block, by Gaussian elimination of a positive
-/// definite matrix.
+/// Computes the last column of the inverse of the leading `n` × `n` block, by Gaussian elimination of a
+/// positive definite matrix.
 fn last_column_of_inverse(matrix: &mut [[f64; MEMBERS]; MEMBERS], n: usize) -> [f64; MEMBERS] {
     for pivot in 0..n {
         for row in pivot + 1..n {

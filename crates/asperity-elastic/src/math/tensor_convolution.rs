@@ -36,16 +36,16 @@ pub(crate) struct TensorKernel<T> {
     /// xx, xy, yy, zx, zy, zz, over the unit. zx and zy are the imaginary parts of imaginary coefficients.
     /// Kernels of both precisions share them.
     spectra: Arc<[Field; 6]>,
-    /// A power of two of the size of the largest spectrum. The spectra over this unit are in the range of single
-    /// precision.
+    /// A power of two of the size of the largest spectrum. The spectra over this unit are in the range of
+    /// single precision.
     unit: f64,
     /// Whether zx or zy are not zero.
     coupled: bool,
 }
 
 impl TensorKernel<f64> {
-    /// Creates the tensor on a cyclic grid of `shape` with the values `at(i, j)` (xx, xy, yy, zx, zy, zz) at the
-    /// offsets i, j, for `i ≤ Mx/2`, `j ≤ My/2`.
+    /// Creates the tensor on a cyclic grid of `shape` with the values `at(i, j)` (xx, xy, yy, zx, zy, zz) at
+    /// the offsets i, j, for `i ≤ Mx/2`, `j ≤ My/2`.
     pub(crate) fn from_values(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
         let plans = Plans::new(shape);
         let tables = tables(shape, at);
@@ -57,8 +57,8 @@ impl TensorKernel<f64> {
         Self::new(plans, spectra)
     }
 
-    /// Creates the tensor on a cyclic grid of `shape` with the transforms `at(kx, ky)` (xx, xy, yy, zx/i, zy/i,
-    /// zz) at its bins, for `kx ≤ Mx/2`, `ky ≤ My/2`.
+    /// Creates the tensor on a cyclic grid of `shape` with the transforms `at(kx, ky)` (xx, xy, yy, zx/i,
+    /// zy/i, zz) at its bins, for `kx ≤ Mx/2`, `ky ≤ My/2`.
     pub(crate) fn from_transforms(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
         let own_opposite = |k: usize, n: usize| k == 0 || 2 * k == n;
         let mut spectra =
@@ -103,7 +103,8 @@ fn tables(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> [Field; 6
     tables
 }
 
-/// Convolution of three fields of one shape with a [`TensorKernel`]; see [`super::Convolution`] for one field.
+/// Convolution of three fields of one shape with a [`TensorKernel`]; see [`super::Convolution`] for one
+/// field.
 ///
 /// Each given field is transformed once, and each requested field is transformed back once.
 pub(crate) struct TensorConvolution<T> {
@@ -201,7 +202,8 @@ impl<T: Precision> TensorKernel<T> {
                 let columns = spectrum.ncols();
                 &spectrum.as_slice().expect("standard layout")[ky * columns..][..columns]
             });
-            // The bins of negative kx follow from those of positive kx: components that are odd in x change their sign.
+            // The bins of negative kx follow from those of positive kx: components that are odd in x change
+            // their sign.
             let opposite = spectra.map(|spectrum| &spectrum[1..]);
             let ((x, x_back), (y, y_back)) = (x.split_at_mut(half), y.split_at_mut(half));
             let (x_back, y_back) = (x_back.iter_mut().rev(), y_back.iter_mut().rev());
@@ -217,7 +219,8 @@ impl<T: Precision> TensorKernel<T> {
     }
 }
 
-/// Multiplies the bins of the three fields by the tensor, whose components that are odd in x have this `sign`.
+/// Multiplies the bins of the three fields by the tensor, whose components that are odd in x have this
+/// `sign`.
 fn multiply<'a, T: Precision>(
     x: impl Iterator<Item = &'a mut Complex<T>>,
     y: impl Iterator<Item = &'a mut Complex<T>>,

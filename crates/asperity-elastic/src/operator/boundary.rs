@@ -22,9 +22,10 @@ choice!(Edge: "free" => Free, "periodic" => Periodic);
 
 /// Continuation of the contact beyond its edges along x and along y.
 ///
-/// With one free and one periodic axis the contact is an endless line of copies. The displacement under a load then
-/// has no bound relative to distant points. Its uniform part along the line is −(2/πE*) ln(r/r₀) under a unit force
-/// per length. It is 0 at the distance r₀ of the [`super::Operators`], to which the approach refers.
+/// With one free and one periodic axis the contact is an endless line of copies. The displacement under a
+/// load then has no bound relative to distant points. Its uniform part along the line is −(2/πE*) ln(r/r₀)
+/// under a unit force per length. It is 0 at the distance r₀ of the [`super::Operators`], to which the
+/// approach refers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(into = "Words")]
 pub struct Boundary(pub [Edge; 2]);
@@ -45,7 +46,8 @@ impl Boundary {
         self.0.map(|edge| edge == Edge::Periodic)
     }
 
-    /// Whether the surface is periodic along both axes, so that a uniform pressure moves it without resistance.
+    /// Whether the surface is periodic along both axes, so that a uniform pressure moves it without
+    /// resistance.
     pub fn leaves_mean_free(self) -> bool {
         self == Self::PERIODIC
     }
@@ -76,15 +78,15 @@ impl Boundary {
         self.single_period().map(|axis| Line { axis, period: grid.extent()[axis], datum })
     }
 
-    /// Returns the size of transforms whose cyclic convolution of fields of `shape` is the convolution with this
-    /// boundary.
+    /// Returns the size of transforms whose cyclic convolution of fields of `shape` is the convolution with
+    /// this boundary.
     pub fn padded(self, shape: [usize; 2]) -> [usize; 2] {
         [0, 1].map(|axis| if self.repeats(axis) { shape[axis] } else { good_size(2 * shape[axis] - 1) })
     }
 
-    /// Returns the grid of about half as many cells along each axis. Along a free axis a coarse cell is two cells
-    /// of `grid`, and the last coarse cell extends beyond an odd number of cells. Along a periodic axis the
-    /// period is preserved.
+    /// Returns the grid of about half as many cells along each axis. Along a free axis a coarse cell is two
+    /// cells of `grid`, and the last coarse cell extends beyond an odd number of cells. Along a periodic axis
+    /// the period is preserved.
     pub fn coarse(self, grid: &Grid) -> Grid {
         let shape = grid.shape.map(|n| n.div_ceil(2));
         let pitch = [0, 1].map(|axis| {

@@ -7,8 +7,8 @@ use crate::grid::{CellValues, Field, Grid, SingleField};
 use crate::operator::{Boundary, Operator};
 use crate::ranks::Slab;
 
-/// An operator with an additional compliance κ of each cell: `u = C p + κ p`. Examples are bodies whose cells lose height or
-/// creep by κ p under pressure, and a layer of springs between bodies.
+/// An operator with an additional compliance κ of each cell: `u = C p + κ p`. Examples are bodies whose cells
+/// lose height or creep by κ p under pressure, and a layer of springs between bodies.
 pub struct Compliant<P> {
     grid: Grid,
     operator: P,

@@ -8,9 +8,9 @@ use crate::math::fft::angular_frequency;
 use crate::math::{MixedTensorConvolution, MixedTensorKernel, TensorKernel};
 use crate::operator::{DirectSum, Operator};
 
-/// Displacement of a pair of bodies under normal and tangential traction, in the order x, y, z of [`Coefficients`].
-/// In the plane it is the displacement of the lower body minus that of the upper body. Along z it is positive if it
-/// opens the gap.
+/// Displacement of a pair of bodies under normal and tangential traction, in the order x, y, z of
+/// [`Coefficients`]. In the plane it is the displacement of the lower body minus that of the upper body.
+/// Along z it is positive if it opens the gap.
 pub trait CoupledOperator: Send {
     /// Returns the grid of the operator.
     fn grid(&self) -> &Grid;
@@ -29,8 +29,8 @@ pub trait CoupledOperator: Send {
     fn apply(&mut self, traction: [Option<&Field>; 3], displacement: [Option<&mut Field>; 3]);
 
     /// Computes the tangential displacement under a shear like [`CoupledOperator::apply`], but in single
-    /// precision. The error is about 3e-7 of the largest displacement. Operators with their own implementation
-    /// take half the time.
+    /// precision. The error is about 3e-7 of the largest displacement. Operators with their own
+    /// implementation take half the time.
     fn apply_shear_single(&mut self, shear: &[SingleField; 2], displacement: &mut [SingleField; 2]) {
         let [x, y] = shear.each_ref().map(|q| q.mapv(f64::from));
         let mut double = [x.clone(), y.clone()];
@@ -107,8 +107,8 @@ pub(super) struct CoupledKernel {
 }
 
 impl CoupledKernel {
-    /// Creates the kernel for grids that fit into the `padded` one. Their edges are free except along the `line`
-    /// of their images.
+    /// Creates the kernel for grids that fit into the `padded` one. Their edges are free except along the
+    /// `line` of their images.
     pub(super) fn free(
         padded: [usize; 2],
         pitch: [f64; 2],
@@ -158,8 +158,8 @@ fn in_order(at: Coefficients) -> [f64; 6] {
     [at.xx, at.xy, at.yy, at.zx, at.zy, at.zz]
 }
 
-/// All nine coefficients by real transforms, with the boundary of the normal part. A full traction takes three
-/// forward and three inverse transforms; fewer components take fewer transforms.
+/// All nine coefficients by real transforms, with the boundary of the normal part. A full traction takes
+/// three forward and three inverse transforms; fewer components take fewer transforms.
 ///
 /// With a periodic boundary the mean displacement is free in all directions, and is set to zero.
 pub struct CoupledFft {
@@ -276,7 +276,8 @@ mod tests {
         let (c, s) = (kx / k, ky / k);
         let cos = wave(f64::cos);
         let mut operator = Operators::new(grid, pair, Boundary::PERIODIC).coupled_on(grid.shape);
-        // Across the crests (along k): plane strain, with the stiffness of a pressure, and with a normal displacement.
+        // Across the crests (along k): plane strain, with the stiffness of a pressure, and with a normal
+        // displacement.
         let across = displacement(operator.as_mut(), &[c * &cos, s * &cos, grid.zeros()]);
         let lifted = wave(f64::sin);
         // Along the crests: antiplane, 1/E* + 1/N* = Σ 1/2G.

@@ -7,8 +7,8 @@ use crate::math::fft::angular_frequency;
 use crate::math::parallel;
 use crate::operator::{Boundary, Definition, FreeFamily, Operator, PeriodicFft};
 
-/// An operator whose transforms and coefficients are computed when they are first needed. A contact that a device solves
-/// needs none of them.
+/// An operator whose transforms and coefficients are computed when they are first needed. A contact that a
+/// device solves needs none of them.
 pub struct Deferred {
     definition: Definition,
     made: OnceCell<Box<dyn Operator>>,
@@ -35,7 +35,8 @@ impl Deferred {
         if !boundary.leaves_mean_free() {
             return self.definition.influence().at(0.0, 0.0);
         }
-        // The mean of the displacements of all harmonics, of which those beyond half of the axis y mirror the others.
+        // The mean of the displacements of all harmonics, of which those beyond half of the axis y mirror the
+        // others.
         let [nx, ny] = grid.shape;
         let rows = parallel::field([nx / 2 + 1, 1], |k, _| {
             let qx = angular_frequency(k, nx, grid.pitch[0]);

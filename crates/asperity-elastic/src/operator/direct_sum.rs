@@ -14,8 +14,8 @@ pub struct DirectSum {
 }
 
 impl DirectSum {
-    /// Creates the operator on `grid` for bodies with this `response`, such as the composite modulus E* of two
-    /// half-spaces.
+    /// Creates the operator on `grid` for bodies with this `response`, such as the composite modulus E* of
+    /// two half-spaces.
     pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Self {
         let response = response.into();
         let table = response.influence(grid.pitch).table(grid.shape, grid.pitch);

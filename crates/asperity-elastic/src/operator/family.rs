@@ -10,10 +10,11 @@ use crate::operator::{
     Boundary, CoupledOperator, Deferred, Definition, FreeFamily, Operator, PeriodicKernel,
 };
 
-/// Creates operators for one cell size, pair of bodies and boundary. They share the spectra of their coefficients.
+/// Creates operators for one cell size, pair of bodies and boundary. They share the spectra of their
+/// coefficients.
 ///
-/// Along a free axis the coefficients of a smaller contact are the leading block of those of a larger one, so that
-/// the operators of all overlaps need only a few spectra. Each period has its own spectrum.
+/// Along a free axis the coefficients of a smaller contact are the leading block of those of a larger one, so
+/// that the operators of all overlaps need only a few spectra. Each period has its own spectrum.
 pub struct Operators {
     largest: Grid,
     response: SharedResponse,
@@ -29,9 +30,9 @@ enum Normal {
 }
 
 impl Operators {
-    /// Creates the operators for contacts on the cells of a `largest` grid, for bodies with this `response`, such
-    /// as the [`crate::material::Compliances`] of two half-spaces, and this `boundary`. If only one axis is
-    /// periodic, r₀ is the length of the grid along the other, also for smaller contacts.
+    /// Creates the operators for contacts on the cells of a `largest` grid, for bodies with this `response`,
+    /// such as the [`crate::material::Compliances`] of two half-spaces, and this `boundary`. If only one axis
+    /// is periodic, r₀ is the length of the grid along the other, also for smaller contacts.
     ///
     /// # Panics
     /// On use of an operator, if the boundary is periodic along one axis and the response has no line.
@@ -56,7 +57,8 @@ impl Operators {
         }
     }
 
-    /// Returns the normal operator on `shape` cells, whose transforms and coefficients are computed when they are needed.
+    /// Returns the normal operator on `shape` cells, whose transforms and coefficients are computed when they
+    /// are needed.
     pub fn deferred_on(&self, shape: [usize; 2]) -> Box<dyn Operator> {
         Box::new(Deferred::new(self.definition(shape)))
     }

@@ -9,11 +9,11 @@ use crate::operator::shared::Shared;
 use crate::operator::{Boundary, Definition, Operator};
 use crate::units::Metre;
 
-/// All operators of one pitch, response and boundary with a free axis. They share the spectra of the influence
-/// coefficients.
+/// All operators of one pitch, response and boundary with a free axis. They share the spectra of the
+/// influence coefficients.
 ///
-/// A spectrum belongs to a padded size, and serves every grid that fits into it. The growing overlaps of a pass need
-/// only a few.
+/// A spectrum belongs to a padded size, and serves every grid that fits into it. The growing overlaps of a
+/// pass need only a few.
 pub struct FreeFamily {
     pitch: [Metre; 2],
     response: SharedResponse,
@@ -23,17 +23,18 @@ pub struct FreeFamily {
     influence: Shared<(), dyn Influence>,
     /// Kernels by the size of their transforms.
     kernels: Shared<[usize; 2], MixedKernel>,
-    /// Families by the bits of their coarse pitch, which depends on the number of cells along a periodic axis.
+    /// Families by the bits of their coarse pitch, which depends on the number of cells along a periodic
+    /// axis.
     coarse: Shared<[u64; 2], FreeFamily>,
 }
 
 impl FreeFamily {
-    /// Creates the family for the cells of a `largest` grid, bodies with this `response` and this boundary. If
-    /// one axis is periodic, r₀ is the length of the grid along the other.
+    /// Creates the family for the cells of a `largest` grid, bodies with this `response` and this boundary.
+    /// If one axis is periodic, r₀ is the length of the grid along the other.
     ///
     /// # Panics
-    /// If the boundary is periodic along both axes. An operator panics if one axis is periodic and the response
-    /// has no line.
+    /// If the boundary is periodic along both axes. An operator panics if one axis is periodic and the
+    /// response has no line.
     pub fn new(largest: &Grid, response: impl Into<SharedResponse>, boundary: Boundary) -> Arc<Self> {
         assert!(boundary != Boundary::PERIODIC, "a free axis");
         Self::with_datum(largest.pitch, response.into(), boundary, boundary.datum(largest))
@@ -87,8 +88,8 @@ impl FreeFamily {
     }
 }
 
-/// A pair loaded on a finite grid, or on a grid that is periodic along one axis. It is the discrete convolution with
-/// the influence of a cell, or of a [`crate::kernel::Line`] of cells, exact to round-off.
+/// A pair loaded on a finite grid, or on a grid that is periodic along one axis. It is the discrete
+/// convolution with the influence of a cell, or of a [`crate::kernel::Line`] of cells, exact to round-off.
 pub struct FreeFft {
     grid: Grid,
     influence: Arc<dyn Influence>,

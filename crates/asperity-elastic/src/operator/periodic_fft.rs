@@ -52,8 +52,8 @@ pub struct PeriodicFft {
 }
 
 impl PeriodicFft {
-    /// Creates the operator on `grid` for bodies with this `response`, such as the composite modulus E* of two
-    /// half-spaces.
+    /// Creates the operator on `grid` for bodies with this `response`, such as the composite modulus E* of
+    /// two half-spaces.
     pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Self {
         PeriodicKernel::new(grid, response).operator()
     }

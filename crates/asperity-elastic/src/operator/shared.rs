@@ -6,9 +6,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Values that are computed on first use, one for each key.
 ///
-/// A value is computed without the lock. The computation may be parallel, and a waiting thread may perform another
-/// task that requests a value too. Under the lock it would wait for itself. Threads with simultaneous requests
-/// compute the same value, and one of the results is stored.
+/// A value is computed without the lock. The computation may be parallel, and a waiting thread may perform
+/// another task that requests a value too. Under the lock it would wait for itself. Threads with simultaneous
+/// requests compute the same value, and one of the results is stored.
 #[derive(Debug)]
 pub(super) struct Shared<K, V: ?Sized>(Mutex<HashMap<K, Arc<V>>>);
 

@@ -1,14 +1,16 @@
 //! Bodies that attract each other: spheres, a flat punch and a sinusoidal surface.
 //!
-//! The work of adhesion w is the energy that separates an area of flat surfaces. Loads W and approaches δ are below 0 where the
-//! bodies are pulled. In the theory of Johnson, Kendall and Roberts (JKR) the attraction has no range. That of Derjaguin, Muller and
-//! Toporov (DMT) is the limit of a long range, that of Maugis lies between them.
+//! The work of adhesion w is the energy that separates an area of flat surfaces. Loads W and approaches δ are
+//! below 0 where the bodies are pulled. In the theory of Johnson, Kendall and Roberts (JKR) the attraction
+//! has no range. That of Derjaguin, Muller and Toporov (DMT) is the limit of a long range, that of Maugis
+//! lies between them.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::units::{Joule, JoulePerSquareMetre, Metre, Newton, Pascal};
 
-/// Adhesive contact of two spheres by Johnson, Kendall and Roberts, in terms of the contact radius a: attraction without range.
+/// Adhesive contact of two spheres by Johnson, Kendall and Roberts, in terms of the contact radius a:
+/// attraction without range.
 ///
 /// ```text
 /// W = 4E*a³/3R − √(8πwE*a³),   δ = a²/R − √(2πwa/E*)
@@ -69,7 +71,8 @@ impl JkrSphere {
         (9.0 * self.cube()).cbrt()
     }
 
-    /// Contact radius at which spheres held by their approach let go: a³ = πwR²/8E*. The load is then −5πwR/6.
+    /// Contact radius at which spheres held by their approach let go: a³ = πwR²/8E*. The load is then
+    /// −5πwR/6.
     pub fn separation_radius(&self) -> Metre {
         self.cube().cbrt()
     }
@@ -80,8 +83,8 @@ impl JkrSphere {
     }
 }
 
-/// Adhesive contact of two spheres by Derjaguin, Muller and Toporov, in terms of the contact radius a: attraction so long that it does
-/// not deform the bodies.
+/// Adhesive contact of two spheres by Derjaguin, Muller and Toporov, in terms of the contact radius a:
+/// attraction so long that it does not deform the bodies.
 ///
 /// W = 4E*a³/3R − 2πwR,  δ = a²/R. Valid for a Tabor parameter below about 0.1.
 /// Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53, 314 (1975).
@@ -112,8 +115,9 @@ impl DmtSphere {
     }
 }
 
-/// Adhesive contact of two spheres by Maugis, in terms of the contact radius a: a constant tension σ₀ up to the gap w/σ₀, which ends at
-/// the radius c = ma. This is [`Potential::Dugdale`](crate::solver::adhesion::Potential::Dugdale).
+/// Adhesive contact of two spheres by Maugis, in terms of the contact radius a: a constant tension σ₀ up to
+/// the gap w/σ₀, which ends at the radius c = ma. This is
+/// [`Potential::Dugdale`](crate::solver::adhesion::Potential::Dugdale).
 ///
 /// With K = 4E*/3, A = a/(πwR²/K)^⅓, λ = 2σ₀/(πwK²/R)^⅓, μ = √(m² − 1) and t = atan μ:
 ///
@@ -262,16 +266,17 @@ impl KendallPunch {
     }
 }
 
-/// Adhesive contact of a one-dimensional sinusoid with a plane by Johnson, in terms of the half width b of a contact strip: attraction
-/// without range.
+/// Adhesive contact of a one-dimensional sinusoid with a plane by Johnson, in terms of the half width b of a
+/// contact strip: attraction without range.
 ///
 /// h = A (1 − cos 2πx/L). With p* = πE*A/L and α = √(2wL/E*)/πA:
 ///
 /// ```text
 /// p̄/p* = sin²(πb/L) − α √tan(πb/L)
 /// ```
-/// The strip grows in jumps where p̄ has an extremum, 4 sin^(3/2) ψ cos^(5/2) ψ = α with ψ = πb/L. For α above 1.065 there is none, and
-/// the surfaces jump from touch to full contact. Johnson, Int. J. Solids Struct. 32, 423 (1995).
+/// The strip grows in jumps where p̄ has an extremum, 4 sin^(3/2) ψ cos^(5/2) ψ = α with ψ = πb/L. For α
+/// above 1.065 there is none, and the surfaces jump from touch to full contact. Johnson, Int. J. Solids
+/// Struct. 32, 423 (1995).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AdhesiveWave {
     /// Amplitude A, half the height from peak to valley.

@@ -5,16 +5,16 @@ use crate::units::{Metre, Pascal};
 
 /// Steady tractive rolling of elastically identical parallel cylinders in plane strain.
 ///
-/// The surfaces enter the contact at x = a, stick at first, and slip towards the trailing edge x = −a. With the normal and
-/// the tangential load per length, P′ and Q′:
+/// The surfaces enter the contact at x = a, stick at first, and slip towards the trailing edge x = −a. With
+/// the normal and the tangential load per length, P′ and Q′:
 ///
 /// ```text
 /// c = a √(1 − Q′/μP′),  d = a − c                                half width and centre of the stick zone
 /// q = μ p₀ [√(1 − x²/a²) − (c/a) √(1 − (x − d)²/c²)₊]            shear traction, along Q′
 /// ξ = μ d/R                                                      creepage
 /// ```
-/// Relative to the other body, the one on which Q′ acts along x moves along −x, at ξ times the rolling speed. Carter, Proc.
-/// R. Soc. A 112, 151 (1926); Johnson (1985), section 8.3.
+/// Relative to the other body, the one on which Q′ acts along x moves along −x, at ξ times the rolling speed.
+/// Carter, Proc. R. Soc. A 112, 151 (1926); Johnson (1985), section 8.3.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Carter {
     /// The normal contact.
@@ -26,7 +26,8 @@ pub struct Carter {
 }
 
 impl Carter {
-    /// Creates the contact at creepage ξ ≥ 0: Q′ = μP′ [1 − (1 − ξR/μa)₊²]. The whole contact slips from ξ = μa/R on.
+    /// Creates the contact at creepage ξ ≥ 0: Q′ = μP′ [1 − (1 − ξR/μa)₊²]. The whole contact slips from ξ =
+    /// μa/R on.
     pub fn from_creepage(normal: HertzLine, friction: f64, creepage: f64) -> Self {
         let stick = (1.0 - creepage * normal.radius / (friction * normal.half_width())).max(0.0);
         let load = friction * normal.load_per_length * (1.0 - stick) * (1.0 + stick);

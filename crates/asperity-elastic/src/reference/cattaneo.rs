@@ -11,8 +11,8 @@ use crate::units::{Joule, Metre, Newton, Pascal};
 /// q = μ p₀ [√(1 − r²/a²) − (c/a) √(1 − r²/c²)₊]               shear traction, along Q
 /// δₜ = (3μW/4aGₜ) [1 − (1 − Q/μW)^{2/3}]                      tangential displacement of the bodies
 /// ```
-/// Exact for identical materials, except for the direction of slip, which is assumed along Q. Cattaneo (1938); Mindlin, J.
-/// Appl. Mech. 16, 259 (1949); Johnson (1985), eqs. 7.39–7.42.
+/// Exact for identical materials, except for the direction of slip, which is assumed along Q. Cattaneo
+/// (1938); Mindlin, J. Appl. Mech. 16, 259 (1949); Johnson (1985), eqs. 7.39–7.42.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CattaneoMindlin {
     /// The normal contact.
@@ -63,16 +63,16 @@ impl CattaneoMindlin {
 
 /// Unloading in partial slip: the tangential load has increased to Q* and decreased to Q.
 ///
-/// Twice the solution for half the change is subtracted from the solution at Q*, because slip starts anew in the opposite
-/// direction, against twice the friction:
+/// Twice the solution for half the change is subtracted from the solution at Q*, because slip starts anew in
+/// the opposite direction, against twice the friction:
 ///
 /// ```text
 /// c = a (1 − (Q* − Q)/2μW)^{1/3}                              radius of the circle without reverse slip
 /// q = q*(r) − 2 q(r; (Q* − Q)/2)                              shear traction: −μp for r > c
 /// δₜ = (3μW/4aGₜ) [2 (1 − (Q* − Q)/2μW)^{2/3} − (1 − Q*/μW)^{2/3} − 1]
 /// ```
-/// At Q = −Q* the state is that after a first load to −Q*. Reloading is the same solution with the signs of Q, q and δₜ
-/// changed. Mindlin & Deresiewicz, J. Appl. Mech. 20, 327 (1953); Johnson (1985), section 7.4.
+/// At Q = −Q* the state is that after a first load to −Q*. Reloading is the same solution with the signs of
+/// Q, q and δₜ changed. Mindlin & Deresiewicz, J. Appl. Mech. 20, 327 (1953); Johnson (1985), section 7.4.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MindlinDeresiewicz {
     /// The contact at the reversal of the tangential load, at Q*.
@@ -104,8 +104,8 @@ impl MindlinDeresiewicz {
     }
 }
 
-/// Composite tangential modulus: 1/Gₜ = (2 − ν₁)(1 + ν₁)/2E₁ + (2 − ν₂)(1 + ν₂)/2E₂, so that the stiffness of a sticking
-/// circle is 2aGₜ. Infinite if both bodies are rigid. Mindlin (1949).
+/// Composite tangential modulus: 1/Gₜ = (2 − ν₁)(1 + ν₁)/2E₁ + (2 − ν₂)(1 + ν₂)/2E₂, so that the stiffness of
+/// a sticking circle is 2aGₜ. Infinite if both bodies are rigid. Mindlin (1949).
 pub fn tangential_modulus(lower: &Material, upper: &Material) -> Pascal {
     let compliance = |m: &Material| (2.0 - m.poisson) * (1.0 + m.poisson) / (2.0 * m.young);
     1.0 / (compliance(lower) + compliance(upper))
@@ -222,7 +222,8 @@ mod tests {
     #[test]
     fn the_cycle_costs_the_area_of_its_loop() {
         for share in [0.1, 0.8, 1.0] {
-            // Reloading is unloading with the signs changed, so the loop is ∫ [δ(Q) + δ(−Q)] dQ over −Q* … Q*.
+            // Reloading is unloading with the signs changed, so the loop is ∫ [δ(Q) + δ(−Q)] dQ over −Q* …
+            // Q*.
             let width =
                 |to: f64| taken_back(share, to).displacement() + taken_back(share, -to).displacement();
             let area = pushed(share).tangential_load * 2.0 * integrate(0.0, 1.0, width);

@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::units::{Joule, Metre, Newton, Pascal};
 
-/// Frictionless indentation by a blunt cone, h = r tan θ, θ the angle between its flank and the plane (90° less the
-/// semi-apical angle).
+/// Frictionless indentation by a blunt cone, h = r tan θ, θ the angle between its flank and the plane (90°
+/// less the semi-apical angle).
 ///
 /// δ = ½π a tan θ,  W = ½π a² E* tan θ,  p = ½E* tan θ acosh(a/r). The half-space theory requires tan θ ≪ 1.
 /// Love (1939); Sneddon, Int. J. Eng. Sci. 3, 47 (1965).

@@ -7,8 +7,8 @@ use crate::units::{Joule, Metre, Newton, Pascal, SquareMetre};
 
 /// Frictionless contact over an ellipse, h = x²/2Rx + y²/2Ry.
 ///
-/// With the ratio κ of the minor semi-axis to the major one a, the elliptic integrals K and D = (K − E)/(1 − κ²) of k′ = κ,
-/// and the larger radius R, which lies along the major axis:
+/// With the ratio κ of the minor semi-axis to the major one a, the elliptic integrals K and D = (K − E)/(1 −
+/// κ²) of k′ = κ, and the larger radius R, which lies along the major axis:
 ///
 /// ```text
 /// R/R′ = (K − D)/(κ² D)      R′ the smaller radius; solved for κ to round-off
@@ -28,7 +28,8 @@ pub struct HertzEllipse {
 }
 
 impl HertzEllipse {
-    /// Creates the contact with relative radii `[Rx, Ry]`, positive and finite, composite modulus E* and load W > 0.
+    /// Creates the contact with relative radii `[Rx, Ry]`, positive and finite, composite modulus E* and load
+    /// W > 0.
     pub fn new(radii: [Metre; 2], modulus: Pascal, load: Newton) -> Self {
         let [rx, ry] = radii;
         let (large, small) = if rx >= ry { (rx, ry) } else { (ry, rx) };
@@ -62,7 +63,8 @@ impl HertzEllipse {
     }
 }
 
-/// Returns the ratio κ ≤ 1 of the semi-axes for the ratio R/R′ ≥ 1 of the radii, by bisection of ln κ between 1/(R/R′) and 1.
+/// Returns the ratio κ ≤ 1 of the semi-axes for the ratio R/R′ ≥ 1 of the radii, by bisection of ln κ between
+/// 1/(R/R′) and 1.
 fn axis_ratio(radius_ratio: f64) -> f64 {
     let excess = |log_ratio: f64| {
         let axis_ratio = log_ratio.exp();
@@ -88,7 +90,8 @@ mod tests {
 
     const RADII: [[f64; 2]; 5] = [[4.0, 4.0], [4.0, 3.999], [4.0, 0.5], [0.3, 4.0], [1e4, 1.0]];
 
-    /// Displacement at a point of the contact: each chord through it, at angle θ, contributes p₀ π (s² of the chord)/8.
+    /// Displacement at a point of the contact: each chord through it, at angle θ, contributes p₀ π (s² of the
+    /// chord)/8.
     fn displacement(contact: &HertzEllipse, modulus: f64, [x, y]: [f64; 2]) -> f64 {
         let [a, b] = contact.semi_axes;
         let chord = |theta: f64| {

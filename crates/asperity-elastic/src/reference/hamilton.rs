@@ -8,17 +8,18 @@ use crate::units::Metre;
 
 /// A Hertzian contact in full slip: pressure p and shear traction q = μp, with z pointing into the body.
 ///
-/// The pressure is that of point loads on an imaginary line, because the transform of a² − s² over −a … a is 4 (sin ka − ka
-/// cos ka)/k³. A harmonic function f of the point load therefore becomes
+/// The pressure is that of point loads on an imaginary line, because the transform of a² − s² over −a … a is
+/// 4 (sin ka − ka cos ka)/k³. A harmonic function f of the point load therefore becomes
 ///
 /// ```text
 /// (πp₀/2a) ∫ (a² − s²) f(x, y, z + is) ds = (2πp₀/a) [Im g(x, y, z + ia) − a Re g_z(x, y, z + ia)],   g_zzz = f
 /// ```
 ///
-/// and the potentials of a point load, 1/R, ln(R + z) and z ln(R + z) − R, have elementary g. These are the explicit
-/// equations of Hamilton, Proc. Inst. Mech. Eng. 197C, 53 (1983), in complex form. They are exact for identical materials,
-/// or if the shear does not change the pressure. At large distances, where the two terms cancel, about 3 log₁₀(r/a) digits
-/// are lost. Hamilton & Goodman, J. Appl. Mech. 33, 371 (1966); Johnson (1985), section 7.1.
+/// and the potentials of a point load, 1/R, ln(R + z) and z ln(R + z) − R, have elementary g. These are the
+/// explicit equations of Hamilton, Proc. Inst. Mech. Eng. 197C, 53 (1983), in complex form. They are exact
+/// for identical materials, or if the shear does not change the pressure. At large distances, where the two
+/// terms cancel, about 3 log₁₀(r/a) digits are lost. Hamilton & Goodman, J. Appl. Mech. 33, 371 (1966);
+/// Johnson (1985), section 7.1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlidingSphere {
     /// The normal contact.
@@ -41,8 +42,8 @@ impl SlidingSphere {
     }
 }
 
-/// Derivatives of the potentials V, ψ and F of the pressure √(1 − r²) on r < 1, over 2π, by D = (1/r) d/dr: V_x = x DV,
-/// V_xx = DV + x² D²V, and so on. Those with a pole at the edge only occur multiplied by z.
+/// Derivatives of the potentials V, ψ and F of the pressure √(1 − r²) on r < 1, over 2π, by D = (1/r) d/dr:
+/// V_x = x DV, V_xx = DV + x² D²V, and so on. Those with a pole at the edge only occur multiplied by z.
 struct Potentials {
     v_z: f64,
     d_v: f64,
@@ -188,8 +189,8 @@ mod tests {
 
     #[test]
     fn the_surface_is_drawn_behind_the_contact() {
-        // Johnson (1985), sections 3.4 and 7.1: σxx = −πq₀(4 + ν)x/8a by the shear, (1 − 2ν)p₀/3 at the rim by the
-        // pressure.
+        // Johnson (1985), sections 3.4 and 7.1: σxx = −πq₀(4 + ν)x/8a by the shear, (1 − 2ν)p₀/3 at the rim
+        // by the pressure.
         let (friction, nu) = (0.25, 0.3);
         let (still, slid) = (sliding(0.0), sliding(friction));
         for x in [-0.99, -0.3, 0.0, 0.4, 0.9] {

@@ -11,7 +11,8 @@ use crate::units::{Kelvin, Metre, MetrePerSecond, Second, WattPerSquareMetre};
 /// ```text
 /// T = (q √D/λ) ∫ [erf((X + l)/s) − erf((X − l)/s)] [erf((y + l)/s) − erf((y − l)/s)]/4√(πt) dt,  X = x − Vt,  s = 2√(Dt)
 /// ```
-/// by the trapezoidal rule in ln t, accurate to round-off. Carslaw and Jaeger, *Conduction of Heat in Solids*, chapter X.
+/// by the trapezoidal rule in ln t, accurate to round-off. Carslaw and Jaeger, *Conduction of Heat in
+/// Solids*, chapter X.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SquareSource {
     /// Half side l > 0.
@@ -47,7 +48,8 @@ impl SquareSource {
         self.flux * self.half_side / self.conductivity * 0.25 * FRAC_2_SQRT_PI * step * sum
     }
 
-    /// The largest temperature, on the line y = 0. It is in the middle at rest, and moves backwards with increasing speed.
+    /// The largest temperature, on the line y = 0. It is in the middle at rest, and moves backwards with
+    /// increasing speed.
     pub fn max_temperature(&self) -> Kelvin {
         let at = |x: f64| self.temperature(x * self.half_side, 0.0);
         // Golden-section search over 0 … l, where there is one maximum.
@@ -70,8 +72,8 @@ impl SquareSource {
         values[0].max(values[1]).max(at(0.0))
     }
 
-    /// The largest temperature by the fit of Tian and Kennedy, 2ql/λ√(π(1.011 + Pe)), between 0.7 % above and 2.6 % below
-    /// the exact one. J. Tribol. 116, 167 (1994).
+    /// The largest temperature by the fit of Tian and Kennedy, 2ql/λ√(π(1.011 + Pe)), between 0.7 % above and
+    /// 2.6 % below the exact one. J. Tribol. 116, 167 (1994).
     pub fn max_temperature_fit(&self) -> Kelvin {
         2.0 * self.flux * self.half_side / (self.conductivity * (PI * (1.011 + self.peclet())).sqrt())
     }
@@ -133,8 +135,8 @@ pub struct HeatedDisc {
 }
 
 impl HeatedDisc {
-    /// Temperature of the centre after a `time` ≥ 0: 2q√(Dt)/λ [1/√π − ierfc(a/2√(Dt))], finally qa/λ. Carslaw and Jaeger,
-    /// *Conduction of Heat in Solids*, chapter X.
+    /// Temperature of the centre after a `time` ≥ 0: 2q√(Dt)/λ [1/√π − ierfc(a/2√(Dt))], finally qa/λ.
+    /// Carslaw and Jaeger, *Conduction of Heat in Solids*, chapter X.
     pub fn centre(&self, time: Second) -> Kelvin {
         let length = 2.0 * (self.diffusivity * time).sqrt();
         let u = self.radius / length;
@@ -145,7 +147,8 @@ impl HeatedDisc {
     }
 }
 
-/// A flux distributed like Hertz' pressure, q = (3q̄/2) √(1 − r²/a²), on a half-space at rest, in the steady state.
+/// A flux distributed like Hertz' pressure, q = (3q̄/2) √(1 − r²/a²), on a half-space at rest, in the steady
+/// state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HertzianFlux {
     /// Radius a > 0.
@@ -169,7 +172,8 @@ impl HertzianFlux {
     }
 }
 
-/// e^u K₀(u) and e^u K₁(u) for u > 0: ∫ e^(−u(cosh t − 1)) (1, cosh t) dt by the trapezoidal rule, accurate to round-off.
+/// e^u K₀(u) and e^u K₁(u) for u > 0: ∫ e^(−u(cosh t − 1)) (1, cosh t) dt by the trapezoidal rule, accurate
+/// to round-off.
 fn scaled_bessel(u: f64) -> [f64; 2] {
     let step = 0.2 / (1.0 + 0.1 * u).sqrt();
     let last = ((1.0 + 50.0 / u).acosh() / step).ceil() as usize;

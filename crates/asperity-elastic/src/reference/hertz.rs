@@ -63,10 +63,11 @@ impl HertzSphere {
         0.4 * self.load * self.approach()
     }
 
-    /// Stresses σ_r = σ_θ and σ_z, positive in tension, on the axis at `depth` ≥ 0 in a body with Poisson's ratio
-    /// `poisson`.
+    /// Stresses σ_r = σ_θ and σ_z, positive in tension, on the axis at `depth` ≥ 0 in a body with Poisson's
+    /// ratio `poisson`.
     ///
-    /// σ_z = −p₀/(1 + ζ²),  σ_r = −p₀ (1 + ν)(1 − ζ atan 1/ζ) + ½p₀/(1 + ζ²),  ζ = z/a. Johnson (1985), eq. 3.45.
+    /// σ_z = −p₀/(1 + ζ²),  σ_r = −p₀ (1 + ν)(1 − ζ atan 1/ζ) + ½p₀/(1 + ζ²),  ζ = z/a. Johnson (1985), eq.
+    /// 3.45.
     pub fn axis_stress(&self, depth: Metre, poisson: f64) -> [Pascal; 2] {
         let zeta = depth / self.contact_radius();
         let decay = 1.0 / (1.0 + zeta * zeta);

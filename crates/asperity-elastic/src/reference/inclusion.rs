@@ -7,8 +7,8 @@ use crate::units::{Metre, Pascal};
 
 /// Stress of a uniform plastic strain in a cuboid, in an infinite elastic body.
 ///
-/// The total strain follows from the fourth derivatives of ∫ R over the cuboid, which are sums over its corners. Chiu, J. Appl.
-/// Mech. 44, 587 (1977).
+/// The total strain follows from the fourth derivatives of ∫ R over the cuboid, which are sums over its
+/// corners. Chiu, J. Appl. Mech. 44, 587 (1977).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inclusion {
     /// Lengths of the sides along x, y and z.

@@ -7,8 +7,8 @@ use crate::units::{Metre, Pascal};
 
 /// Frictionless contact of two parallel elastic cylinders in plane strain, approximated by parabolas.
 ///
-/// h = x²/2R,  a² = 4P′R/πE*,  p = p₀ √(1 − x²/a²),  p₀ = 2P′/πa. The approach of a half-plane is unbounded and depends on
-/// where it is measured. Johnson (1985), eqs. 4.43–4.45.
+/// h = x²/2R,  a² = 4P′R/πE*,  p = p₀ √(1 − x²/a²),  p₀ = 2P′/πa. The approach of a half-plane is unbounded
+/// and depends on where it is measured. Johnson (1985), eqs. 4.43–4.45.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HertzLine {
     /// Relative radius R: 1/R = 1/R₁ + 1/R₂.
@@ -36,8 +36,8 @@ impl HertzLine {
         if x.abs() < a { self.peak_pressure() * ((1.0 - x / a) * (1.0 + x / a)).sqrt() } else { 0.0 }
     }
 
-    /// Approach of the bodies relative to the distance r₀ = `datum` ≥ a, where the displacement under a unit line force,
-    /// −(2/πE*) ln(r/r₀), is 0:
+    /// Approach of the bodies relative to the distance r₀ = `datum` ≥ a, where the displacement under a unit
+    /// line force, −(2/πE*) ln(r/r₀), is 0:
     ///
     /// ```text
     /// δ = (2P′/πE*) [ln(2r₀/a) + ½]
@@ -47,8 +47,9 @@ impl HertzLine {
         line * ((2.0 * datum / self.half_width()).ln() + 0.5)
     }
 
-    /// Stress at distance `x` from the centre line and at `depth` ≥ 0, in plane strain, with the shear traction `friction` times the pressure
-    /// along +x on the body. McEwen (1949); Johnson (1985), eqs. 4.49, 7.8; y lies along the line.
+    /// Stress at distance `x` from the centre line and at `depth` ≥ 0, in plane strain, with the shear
+    /// traction `friction` times the pressure along +x on the body. McEwen (1949); Johnson (1985), eqs. 4.49,
+    /// 7.8; y lies along the line.
     pub fn stress(&self, x: Metre, depth: Metre, poisson: f64, friction: f64) -> Stress {
         let a = self.half_width();
         let (x, z) = (x / a, depth.max(f64::MIN_POSITIVE) / a);

@@ -1,8 +1,8 @@
 //! Closed forms: contacts with a known solution, to verify computations.
 //!
-//! A contact is a struct of its data (geometry, composite modulus E*, load), with its results as methods. Lengths, moduli
-//! and loads are positive unless stated otherwise. An invalid value gives NaN or infinity, never a panic. Displacements u
-//! are composite, positive where they open the gap, and u = 0 far away.
+//! A contact is a struct of its data (geometry, composite modulus E*, load), with its results as methods.
+//! Lengths, moduli and loads are positive unless stated otherwise. An invalid value gives NaN or infinity,
+//! never a panic. Displacements u are composite, positive where they open the gap, and u = 0 far away.
 
 pub mod adhesion;
 pub mod carter;

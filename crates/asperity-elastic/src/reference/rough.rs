@@ -10,20 +10,21 @@ pub const BGT_COEFFICIENT: f64 = 2.506_628_274_631_000_7;
 /// κ = √(8/π) of Persson, the slope at p̄ = 0 of [`persson_area_fraction`].
 pub const PERSSON_COEFFICIENT: f64 = 1.595_769_121_605_730_9;
 
-/// Area fraction A/A₀ = κ p̄/(E* h′) of the asperity theory, with the rms `rms_slope` h′ of |∇h| (Sdq) of the gap. It holds
-/// for A/A₀ ≪ 1 only, and is not limited to 1. Computations lie between [`PERSSON_COEFFICIENT`] and this, κ ≈ 2.
+/// Area fraction A/A₀ = κ p̄/(E* h′) of the asperity theory, with the rms `rms_slope` h′ of |∇h| (Sdq) of the
+/// gap. It holds for A/A₀ ≪ 1 only, and is not limited to 1. Computations lie between [`PERSSON_COEFFICIENT`]
+/// and this, κ ≈ 2.
 pub fn bgt_area_fraction(mean_pressure: Pascal, modulus: Pascal, rms_slope: f64) -> f64 {
     BGT_COEFFICIENT * mean_pressure / (modulus * rms_slope)
 }
 
-/// Area fraction A/A₀ = erf(√2 p̄/(E* h′)) of Persson's theory, from first touch to full contact, with the rms `rms_slope`
-/// h′ of |∇h| (Sdq) of the gap. Persson, J. Chem. Phys. 115, 3840 (2001).
+/// Area fraction A/A₀ = erf(√2 p̄/(E* h′)) of Persson's theory, from first touch to full contact, with the
+/// rms `rms_slope` h′ of |∇h| (Sdq) of the gap. Persson, J. Chem. Phys. 115, 3840 (2001).
 pub fn persson_area_fraction(mean_pressure: Pascal, modulus: Pascal, rms_slope: f64) -> f64 {
     libm::erf(SQRT_2 * mean_pressure / (modulus * rms_slope))
 }
 
-/// Area A = W/H if the whole contact yields, the limit for H ≪ E* h′: the smallest area that carries the load. Bowden &
-/// Tabor (1950).
+/// Area A = W/H if the whole contact yields, the limit for H ≪ E* h′: the smallest area that carries the
+/// load. Bowden & Tabor (1950).
 pub fn fully_plastic_area(load: Newton, hardness: Pascal) -> SquareMetre {
     load / hardness
 }

@@ -1,23 +1,24 @@
 //! Spence: the stick area in an indentation.
 //!
-//! Dissimilar bodies pressed together under a growing load stick in the middle and slip in an annulus at the edge. The
-//! stick ratio s = c/a depends on the friction μ and Dundurs' β = E*/G* alone. It is the same for a flat punch and for any
-//! power-law indenter. With 1/G* = (1 + ν₁)(1 − 2ν₁)/2E₁ − (1 + ν₂)(1 − 2ν₂)/2E₂, a lower body with β > 0 moves inward in
-//! the annulus, and the shear on it acts outward. β < 0 reverses both.
+//! Dissimilar bodies pressed together under a growing load stick in the middle and slip in an annulus at the
+//! edge. The stick ratio s = c/a depends on the friction μ and Dundurs' β = E*/G* alone. It is the same for a
+//! flat punch and for any power-law indenter. With 1/G* = (1 + ν₁)(1 − 2ν₁)/2E₁ − (1 + ν₂)(1 − 2ν₂)/2E₂, a
+//! lower body with β > 0 moves inward in the annulus, and the shear on it acts outward. β < 0 reverses both.
 //!
-//! The formulas are Goodman's, without the effect of the shear on the pressure. They overestimate the stick ratio by at
-//! most 0.44 β² for small β and 0.49 β² at β = ½. The friction required for a given s is underestimated by 0.5–0.7 β² of it
-//! for s ≤ 0.5, and by 0.8–1.2 β² at s = 0.9. [`COUPLED`] contains fully coupled solutions; the program that computed them
-//! also gave these bounds.
+//! The formulas are Goodman's, without the effect of the shear on the pressure. They overestimate the stick
+//! ratio by at most 0.44 β² for small β and 0.49 β² at β = ½. The friction required for a given s is
+//! underestimated by 0.5–0.7 β² of it for s ≤ 0.5, and by 0.8–1.2 β² at s = 0.9. [`COUPLED`] contains fully
+//! coupled solutions; the program that computed them also gave these bounds.
 //!
-//! Goodman, J. Appl. Mech. 29, 515 (1962); Spence, Proc. R. Soc. A 305, 55 (1968); J. Elasticity 5, 297 (1975).
+//! Goodman, J. Appl. Mech. 29, 515 (1962); Spence, Proc. R. Soc. A 305, 55 (1968); J. Elasticity 5, 297
+//! (1975).
 
 use crate::math::elliptic::CompleteElliptic;
 
 /// Stick ratio s of a round contact, 0 ≤ s ≤ 1, for μ ≥ 0 and |β| < 1.
 ///
-/// (1/2s) ln((1 + s)/(1 − s)) = (μ/|β|) K(√(1 − s²)).  s → 4 exp(−|β|/μ) for small μ/|β|, 1 − s → 2 exp(−πμ/|β|) for
-/// large; s = 1 if β = 0. Solved to round-off; values below 1e-130 count as 0.
+/// (1/2s) ln((1 + s)/(1 − s)) = (μ/|β|) K(√(1 − s²)).  s → 4 exp(−|β|/μ) for small μ/|β|, 1 − s → 2
+/// exp(−πμ/|β|) for large; s = 1 if β = 0. Solved to round-off; values below 1e-130 count as 0.
 pub fn stick_ratio(friction: f64, dundurs: f64) -> f64 {
     solve(friction, dundurs, |s, rest| libm::asinh(s / rest) / (s * CompleteElliptic::of_complement(s).first))
 }
@@ -44,10 +45,12 @@ pub struct CoupledPunch {
     pub stiffening: f64,
 }
 
-/// Stick ratio and load of the flat punch with full coupling, computed by an independent axisymmetric program.
+/// Stick ratio and load of the flat punch with full coupling, computed by an independent axisymmetric
+/// program.
 ///
-/// The program expresses p and q by densities φ and ψ on 0 … a, their Abel transforms, and solves the pair of singular
-/// equations on graded meshes of 200 to 800 elements. 400 rings of constant pressure agree to one ring.
+/// The program expresses p and q by densities φ and ψ on 0 … a, their Abel transforms, and solves the pair of
+/// singular equations on graded meshes of 200 to 800 elements. 400 rings of constant pressure agree to one
+/// ring.
 pub const COUPLED: [CoupledPunch; 16] = [
     CoupledPunch { dundurs: 0.1, friction: 0.05, stick_ratio: 0.480_825, stiffening: 1.001_786 },
     CoupledPunch { dundurs: 0.1, friction: 0.1, stick_ratio: 0.901_006, stiffening: 1.002_874 },
@@ -67,8 +70,8 @@ pub const COUPLED: [CoupledPunch; 16] = [
     CoupledPunch { dundurs: 0.5, friction: 0.4, stick_ratio: 0.698_178, stiffening: 1.065_465 },
 ];
 
-/// Returns the s at which `ratio(s, √(1 − s²))`, which increases with s from 0 to infinity, is μ/|β|, by bisection of ln
-/// s/√(1 − s²).
+/// Returns the s at which `ratio(s, √(1 − s²))`, which increases with s from 0 to infinity, is μ/|β|, by
+/// bisection of ln s/√(1 − s²).
 fn solve(friction: f64, dundurs: f64, ratio: impl Fn(f64, f64) -> f64) -> f64 {
     let wanted = friction / dundurs.abs();
     if dundurs == 0.0 || friction == 0.0 {
@@ -96,8 +99,9 @@ mod tests {
 
     const PAIRS: [(f64, f64); 3] = [(0.1, 0.3), (0.2, 0.3), (0.3, 0.2)];
 
-    /// Shear under a punch with a = 1, p = 1/√(1 − r²), that slips from `s` on. It is μp, minus the part that compensates
-    /// the slip in the stick zone, −(2/πr) ∫ (μD(√(1 − t²)) − β/(1 − t²)) t dt/√(t² − r²) over r … s.
+    /// Shear under a punch with a = 1, p = 1/√(1 − r²), that slips from `s` on. It is μp, minus the part that
+    /// compensates the slip in the stick zone, −(2/πr) ∫ (μD(√(1 − t²)) − β/(1 − t²)) t dt/√(t² − r²) over r
+    /// … s.
     fn shear(friction: f64, dundurs: f64, s: f64, r: f64) -> f64 {
         let slope = |square: f64| {
             let difference = CompleteElliptic::of_complement(square.sqrt()).difference;
@@ -157,7 +161,8 @@ mod tests {
 
     #[test]
     fn the_strip_meets_carlemans_condition() {
-        // Bounded at the edge of the stick zone: ∫ [β − (2μ/π) acosh(1/x)]/√((1 − x²)(s² − x²)) dx = 0 over 0 … s.
+        // Bounded at the edge of the stick zone: ∫ [β − (2μ/π) acosh(1/x)]/√((1 − x²)(s² − x²)) dx = 0 over 0
+        // … s.
         for (friction, dundurs) in PAIRS {
             let s = stick_ratio_plane(friction, dundurs);
             let sum = integrate_to_edge(s, |x| {

@@ -42,9 +42,9 @@ impl StickingPunch {
 /// W = (4E*a³/3R) (atanh β)/βJ        δ = a²/RJ
 /// J = 2 ∫₀¹ t cos(ε ln((1 + t)/(1 − t))) dt,  ε = (atanh β)/π
 /// ```
-/// compared with J = 1 without friction. The load at a given a increases more than that at a given δ: at β = ½ by factors
-/// of 1.196 and 1.053. Exact for the paraboloid. Mossakovskii (1963); Spence (1968); Borodich & Keer, Proc. R. Soc. A 460,
-/// 507 (2004).
+/// compared with J = 1 without friction. The load at a given a increases more than that at a given δ: at β =
+/// ½ by factors of 1.196 and 1.053. Exact for the paraboloid. Mossakovskii (1963); Spence (1968); Borodich &
+/// Keer, Proc. R. Soc. A 460, 507 (2004).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StickingSphere {
     /// Relative radius R: 1/R = 1/R₁ + 1/R₂.
@@ -165,7 +165,8 @@ mod tests {
 
     #[test]
     fn the_sphere_sinks_as_a_program_of_rings_finds() {
-        // δR/a² from the displacement outside a sticking punch, by 200 rings of constant pressure and linear shear.
+        // δR/a² from the displacement outside a sticking punch, by 200 rings of constant pressure and linear
+        // shear.
         for (dundurs, computed) in [(0.3, 1.027_302), (0.5, 1.088_732)] {
             let sphere = StickingSphere { dundurs, ..SPHERE };
             let ratio = sphere.approach() * sphere.radius / sphere.contact_radius().powi(2);

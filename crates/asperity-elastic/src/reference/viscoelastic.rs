@@ -7,9 +7,9 @@ use crate::units::{Metre, Newton, Pascal, PerPascal, Second};
 
 /// A rigid cylinder that slides or rolls without friction over a standard linear solid, in plane strain.
 ///
-/// The composite creep compliance of the solid is `J(t) = J_g + J₁(1 − e^(−t/ρ))`. It takes the place of the 1/E* of elastic bodies. The contact
-/// reaches from the distance b behind the lowest point of the cylinder to the distance a ahead of it. With λ = vρ, λ′ = λJ_g/(J_g + J₁),
-/// c = (a + b)/2 and x₀ = (a − b)/2:
+/// The composite creep compliance of the solid is `J(t) = J_g + J₁(1 − e^(−t/ρ))`. It takes the place of the
+/// 1/E* of elastic bodies. The contact reaches from the distance b behind the lowest point of the cylinder to
+/// the distance a ahead of it. With λ = vρ, λ′ = λJ_g/(J_g + J₁), c = (a + b)/2 and x₀ = (a − b)/2:
 ///
 /// ```text
 /// x₀ = (λ − λ′) r/(k + r),   k = K₁(c/λ)/K₀(c/λ),   r = I₁(c/λ′)/I₀(c/λ′)
@@ -64,7 +64,8 @@ impl ViscoelasticCylinder {
         0.5 * (least + most)
     }
 
-    /// Distances a and b by which the contact reaches ahead of the lowest point of the cylinder, and behind it; b may be below 0.
+    /// Distances a and b by which the contact reaches ahead of the lowest point of the cylinder, and behind
+    /// it; b may be below 0.
     pub fn reach(&self) -> [Metre; 2] {
         let c = self.half_width();
         let [_, shift] = self.shift(c);
@@ -132,8 +133,8 @@ fn ratio_k(x: f64) -> f64 {
     first / zeroth
 }
 
-/// A rigid sphere under a load that is applied at once and held, on bodies whose composite compliance has grown to J(t): approach and
-/// contact radius.
+/// A rigid sphere under a load that is applied at once and held, on bodies whose composite compliance has
+/// grown to J(t): approach and contact radius.
 ///
 /// δ³ = 9W²J²/16R and a³ = 3WRJ/4. Lee and Radok, J. Appl. Mech. 27, 438 (1960).
 pub fn sphere_under_step(radius: Metre, load: Newton, compliance: PerPascal) -> [Metre; 2] {
@@ -141,12 +142,14 @@ pub fn sphere_under_step(radius: Metre, load: Newton, compliance: PerPascal) -> 
     [approach, (0.75 * load * radius * compliance).cbrt()]
 }
 
-/// Drag over load of a paraboloid that slides slowly, over its speed: Σ J_kρ_k/(J(∞) R), s/m. `delayed` are pairs of J_k and ρ_k.
+/// Drag over load of a paraboloid that slides slowly, over its speed: Σ J_kρ_k/(J(∞) R), s/m. `delayed` are
+/// pairs of J_k and ρ_k.
 pub fn slow_paraboloid(radius: Metre, relaxed: PerPascal, delayed: &[(PerPascal, Second)]) -> f64 {
     delayed.iter().map(|(compliance, time)| compliance * time).sum::<f64>() / (relaxed * radius)
 }
 
-/// Drag over load of a sphere that slides fast, times its speed: 0.8 δ_g Σ J_k/(ρ_k J_g), m/s, with δ_g its approach to the glassy body.
+/// Drag over load of a sphere that slides fast, times its speed: 0.8 δ_g Σ J_k/(ρ_k J_g), m/s, with δ_g its
+/// approach to the glassy body.
 pub fn fast_sphere(radius: Metre, load: Newton, glassy: PerPascal, delayed: &[(PerPascal, Second)]) -> f64 {
     let [approach, _] = sphere_under_step(radius, load, glassy);
     0.8 * approach * delayed.iter().map(|(compliance, time)| compliance / time).sum::<f64>() / glassy

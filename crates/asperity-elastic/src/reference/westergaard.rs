@@ -79,7 +79,8 @@ impl Westergaard {
         self.amplitude * (1.0 - s + log)
     }
 
-    /// Elastic energy per apparent area, ¼ p*A s² (1 − 2 ln s), J/m²: the work ∫ p̄ d(−ḡ); ¼ p*A in full contact.
+    /// Elastic energy per apparent area, ¼ p*A s² (1 − 2 ln s), J/m²: the work ∫ p̄ d(−ḡ); ¼ p*A in full
+    /// contact.
     pub fn elastic_energy(&self) -> f64 {
         let s = self.closure();
         let log = if s > 0.0 { s.ln() } else { 0.0 };
@@ -87,16 +88,16 @@ impl Westergaard {
     }
 }
 
-/// Mean pressure p* = √2 π E*A/λ at which the two-dimensional sinusoid h = A (1 − cos 2πx/λ cos 2πy/λ) reaches full
-/// contact; the pressure is then p̄ + p* cos 2πx/λ cos 2πy/λ.
+/// Mean pressure p* = √2 π E*A/λ at which the two-dimensional sinusoid h = A (1 − cos 2πx/λ cos 2πy/λ)
+/// reaches full contact; the pressure is then p̄ + p* cos 2πx/λ cos 2πy/λ.
 ///
 /// Johnson, Greenwood & Higginson, Int. J. Mech. Sci. 27, 383 (1985).
 pub fn full_contact_pressure_2d(amplitude: Metre, wavelength: Metre, modulus: Pascal) -> Pascal {
     SQRT_2 * PI * modulus * amplitude / wavelength
 }
 
-/// Fraction π (3p̄/8πp*)^{2/3} of the plane in contact with that two-dimensional sinusoid for p̄ ≪ p*: Hertz on two crests
-/// per λ² with the radius λ²/4π²A. Same source.
+/// Fraction π (3p̄/8πp*)^{2/3} of the plane in contact with that two-dimensional sinusoid for p̄ ≪ p*: Hertz
+/// on two crests per λ² with the radius λ²/4π²A. Same source.
 pub fn light_contact_fraction_2d(mean_pressure: Pascal, full_contact_pressure: Pascal) -> f64 {
     PI * (3.0 / (8.0 * PI) * mean_pressure / full_contact_pressure).cbrt().powi(2)
 }

@@ -7,8 +7,8 @@ use crate::units::{Dimension, Pascal};
 
 /// Bounds of the pressure of each cell: lowerᵢ ≤ pᵢ ≤ upperᵢ, Pa.
 ///
-/// Without a tension between the bodies the lower bound is 0. The upper bound is the hardness, possibly reduced by shear or by a film. It
-/// is infinite for elastic bodies.
+/// Without a tension between the bodies the lower bound is 0. The upper bound is the hardness, possibly
+/// reduced by shear or by a film. It is infinite for elastic bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bounds {
     lower: CellValues,
@@ -20,7 +20,8 @@ impl Bounds {
     pub const ELASTIC: Self =
         Self { lower: CellValues::Uniform(0.0), upper: CellValues::Uniform(f64::INFINITY) };
 
-    /// Creates bounds for bodies without tension and with a largest pressure `upper`, a number or a field: 0 ≤ p ≤ upper.
+    /// Creates bounds for bodies without tension and with a largest pressure `upper`, a number or a field: 0
+    /// ≤ p ≤ upper.
     pub fn up_to(upper: impl Into<CellValues>) -> Self {
         Self { lower: CellValues::Uniform(0.0), upper: upper.into().in_rows() }
     }
@@ -131,8 +132,8 @@ impl Interval {
     }
 }
 
-/// Evaluates an expression with `$of`, the [`Interval`] of a cell. The code is generated twice, for uniform bounds
-/// and for fields, so that uniform bounds cost no more than two numbers.
+/// Evaluates an expression with `$of`, the [`Interval`] of a cell. The code is generated twice, for uniform
+/// bounds and for fields, so that uniform bounds cost no more than two numbers.
 macro_rules! with_bounds {
     ($bounds:expr, $of:ident => $do:expr) => {{
         let bounds = &$bounds;

@@ -16,9 +16,9 @@ const MAX_COARSE_CONVOLUTIONS: usize = 100;
 /// Grids with fewer cells along each axis are not coarsened.
 pub(super) const MIN_CELLS: usize = 64;
 
-/// Solves from the `start` of each contact. Without a start it solves on a cascade of grids, from the coarsest to the
-/// finest. Each grid has twice the pitch of the next, and its pressure is the initial guess of the next. `tolerance`
-/// is the η at which a state is accepted.
+/// Solves from the `start` of each contact. Without a start it solves on a cascade of grids, from the
+/// coarsest to the finest. Each grid has twice the pitch of the next, and its pressure is the initial guess
+/// of the next. `tolerance` is the η at which a state is accepted.
 pub(super) fn solve(
     sites: &[&dyn Site],
     settings: &Settings,
@@ -44,8 +44,8 @@ pub(super) fn solve(
     Ok(found)
 }
 
-/// Returns the prolonged pressures of the next coarser grids, and their cost in convolutions of these grids. Returns
-/// none for small grids, or if the coarse grids cannot carry the load.
+/// Returns the prolonged pressures of the next coarser grids, and their cost in convolutions of these grids.
+/// Returns none for small grids, or if the coarse grids cannot carry the load.
 fn first_guess(
     sites: &[&dyn Site],
     settings: &Settings,
@@ -107,8 +107,8 @@ fn first_guess(
     }
 }
 
-/// Prolongs a field that begins at the row `first` of the coarse grid: copies each value to the cells of the `fine`
-/// slab that it covers.
+/// Prolongs a field that begins at the row `first` of the coarse grid: copies each value to the cells of the
+/// `fine` slab that it covers.
 fn prolong(coarse: &Field, first: usize, fine: &Slab) -> Field {
     let offset = fine.rows().start;
     parallel::field(fine.grid().shape, |i, j| coarse[[(offset + i) / 2 - first, j / 2]])

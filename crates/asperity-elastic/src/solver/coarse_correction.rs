@@ -1,5 +1,5 @@
-//! Coarse level of the preconditioner: the stiffness of long waves, on a grid with a sixteenth of the cells along
-//! each axis.
+//! Coarse level of the preconditioner: the stiffness of long waves, on a grid with a sixteenth of the cells
+//! along each axis.
 
 use std::f64::consts::{FRAC_PI_3, TAU};
 use std::ops::Range;
@@ -22,17 +22,18 @@ const MARGIN: usize = 2;
 /// [`CoarseCorrection`].
 const MIN_COVER: f32 = 0.2;
 
-/// The correction P D B D Pᵀ. P interpolates bilinearly from the coarse nodes, B is the stiffness of the coarse
-/// harmonics (E*|q|/2 for half-spaces), and D is a weight.
+/// The correction P D B D Pᵀ. P interpolates bilinearly from the coarse nodes, B is the stiffness of the
+/// coarse harmonics (E*|q|/2 for half-spaces), and D is a weight.
 ///
-/// Let θ be the fraction of free cells in a coarse cell. A pressure that is uniform over the free cells has θ times
-/// the mean pressure, and a uniform displacement there has θ times the sum. Division by θ in both directions corrects
-/// both: D = 1/(θ + 0.2). It stays finite if few cells are free, for which a uniform pressure is a poor guess anyway.
+/// Let θ be the fraction of free cells in a coarse cell. A pressure that is uniform over the free cells has θ
+/// times the mean pressure, and a uniform displacement there has θ times the sum. Division by θ in both
+/// directions corrects both: D = 1/(θ + 0.2). It stays finite if few cells are free, for which a uniform
+/// pressure is a poor guess anyway.
 ///
-/// The mean of a periodic surface is more compliant than any wave, and matters only under approach control. Consider
-/// valleys of width a that cover a fraction φ of the surface. A uniform pressure around them displaces the valleys by
-/// about −a p/E*, and the rest by φ times this. For valleys at given distances, a is proportional to φ, so the
-/// stiffness of the mean is proportional to 1/φ².
+/// The mean of a periodic surface is more compliant than any wave, and matters only under approach control.
+/// Consider valleys of width a that cover a fraction φ of the surface. A uniform pressure around them
+/// displaces the valleys by about −a p/E*, and the rest by φ times this. For valleys at given distances, a is
+/// proportional to φ, so the stiffness of the mean is proportional to 1/φ².
 pub(super) struct CoarseCorrection {
     /// Stiffness of the coarse harmonics, divided by the fine cells in a coarse one.
     stiffness: Convolution<f32>,
@@ -71,7 +72,8 @@ impl CoarseCorrection {
             let wide = match (k, l) {
                 (0, 0) => match operator.boundary().0 {
                     [Edge::Periodic, Edge::Periodic] => 0.0,
-                    // A uniform pressure on a free square of side L sinks a half-space by 0.95 L p/E* in the mean,
+                    // A uniform pressure on a free square of side L sinks a half-space by 0.95 L p/E* in the
+                    // mean,
                     [Edge::Free, Edge::Free] => stiffness(2.0 / (0.95 * (extent[0] * extent[1]).sqrt()), 0.0),
                     // on an endless strip of width L by 3/π L p/E* against the distance L.
                     [Edge::Free, Edge::Periodic] => stiffness(2.0 * FRAC_PI_3 / extent[0], 0.0),
@@ -102,8 +104,8 @@ impl CoarseCorrection {
         self.weight.mapv_inplace(|count| 1.0 / (count / self.cells + MIN_COVER));
     }
 
-    /// Restricts the residual `r`, which is zero for cells that are not free, to the nodes and solves there. Returns Σ r, and the
-    /// product of r with the coarse solution on the free cells.
+    /// Restricts the residual `r`, which is zero for cells that are not free, to the nodes and solves there.
+    /// Returns Σ r, and the product of r with the coarse solution on the free cells.
     pub(super) fn solve(&mut self, sets: &Sets, r: &[f32]) -> [f64; 2] {
         self.bilinear.restrict(sets, Some(r), &mut self.restricted);
         let sum = self.restricted.iter().copied().map(f64::from).sum();
@@ -117,14 +119,14 @@ impl CoarseCorrection {
         [sum, product]
     }
 
-    /// Removes its smooth part from the residual `r` of the free cells of some rows: `(I − T) A r` with the smoothing
-    /// T = P D Pᵀ.
+    /// Removes its smooth part from the residual `r` of the free cells of some rows: `(I − T) A r` with the
+    /// smoothing T = P D Pᵀ.
     pub(super) fn remove_smooth_part(&self, sets: &Sets, rows: Range<usize>, r: &mut [f32]) {
         self.bilinear.add(sets, rows, &self.restricted, -1.0 / self.cells, r);
     }
 
-    /// Removes the smooth part of `z`, and adds the coarse solution for the last `r`: `(I − T)ᵀ z + P D B D Pᵀ A
-    /// r`. Returns Σ z of the free cells.
+    /// Removes the smooth part of `z`, and adds the coarse solution for the last `r`:
+    /// `(I − T)ᵀ z + P D B D Pᵀ A r`. Returns Σ z of the free cells.
     pub(super) fn join(&mut self, sets: &Sets, z: &mut [f32]) -> f64 {
         self.bilinear.restrict(sets, Some(z), &mut self.restricted);
         self.restricted *= &self.weight;
@@ -165,8 +167,8 @@ struct NodeRows {
 }
 
 impl NodeRows {
-    /// Returns the rows of nodes around the rows of cells with positions `along`, with so many `cells` between two of
-    /// `all` rows of nodes.
+    /// Returns the rows of nodes around the rows of cells with positions `along`, with so many `cells`
+    /// between two of `all` rows of nodes.
     fn new(along: &[(usize, f32)], cells: f64, all: usize) -> Self {
         // The nodes before the first row to those after the last one; all nodes if these overlap cyclically.
         let count = ((along.len() as f64 / cells).ceil() as usize + 2).min(all);
@@ -175,8 +177,8 @@ impl NodeRows {
 }
 
 impl Bilinear {
-    /// Creates the interpolation between `coarse` nodes on the grid, with a `margin` of further nodes beyond each end,
-    /// and the rows of a `halo` of a slab.
+    /// Creates the interpolation between `coarse` nodes on the grid, with a `margin` of further nodes beyond
+    /// each end, and the rows of a `halo` of a slab.
     fn new(slab: Slab, halo: &Halo, coarse: [usize; 2], margin: [usize; 2]) -> Self {
         let fine = slab.whole_grid().shape;
         let [rows, columns] = [0, 1].map(|axis| nodes(fine[axis], coarse[axis], margin[axis]));
@@ -195,7 +197,8 @@ impl Bilinear {
         Self { rows, before, shares, between, cells, slab, own, reached }
     }
 
-    /// Adds values interpolated from `nodes`, times a `factor`, to the `values` of the free cells of some rows.
+    /// Adds values interpolated from `nodes`, times a `factor`, to the `values` of the free cells of some
+    /// rows.
     fn add(&self, sets: &Sets, rows: Range<usize>, nodes: &SingleField, factor: f32, values: &mut [f32]) {
         let columns = sets.bands().columns();
         // Values at the nodes along a row of cells; the first value is repeated at the end.
@@ -229,8 +232,8 @@ impl Bilinear {
         }
     }
 
-    /// Applies the transpose: distributes the `values` to the nodes around their cells. They are zero for cells that are not
-    /// free; without values, each free cell has 1.
+    /// Applies the transpose: distributes the `values` to the nodes around their cells. They are zero for
+    /// cells that are not free; without values, each free cell has 1.
     fn restrict(&self, sets: &Sets, values: Option<&[f32]>, nodes: &mut SingleField) {
         let shape = [nodes.nrows(), nodes.ncols()];
         let bands: Vec<_> =
@@ -330,8 +333,8 @@ fn is_sparse(free: &[u32], columns: usize) -> bool {
     SPARSE * free.len() < columns
 }
 
-/// Returns, for each of `fine` cells, the (cyclic) node before it, and the weight of the next node. There are `coarse`
-/// nodes on the cells, and a `margin` of further ones beyond each end.
+/// Returns, for each of `fine` cells, the (cyclic) node before it, and the weight of the next node. There are
+/// `coarse` nodes on the cells, and a `margin` of further ones beyond each end.
 fn nodes(fine: usize, coarse: usize, margin: usize) -> Vec<(usize, f32)> {
     let factor = fine as f64 / coarse as f64;
     let all = (coarse + 2 * margin) as isize;

@@ -22,8 +22,8 @@ pub enum Device {
     /// The processor.
     #[default]
     Cpu,
-    /// A GPU of NVIDIA, by an active set with a preconditioner of harmonics. The program needs the feature `cuda`, and the
-    /// machine the driver, NVRTC and cuFFT.
+    /// A GPU of NVIDIA, by an active set with a preconditioner of harmonics. The program needs the feature
+    /// `cuda`, and the machine the driver, NVRTC and cuFFT.
     Cuda,
     /// The solver of the GPU in plain loops on the processor, its reference. It is slow, and needs no device.
     Host,
@@ -50,8 +50,8 @@ impl Device {
         }
     }
 
-    /// Returns the normal operator on `shape` cells for contacts that it solves. A device needs neither its transforms nor its
-    /// coefficients, which are then computed only if the processor needs them.
+    /// Returns the normal operator on `shape` cells for contacts that it solves. A device needs neither its
+    /// transforms nor its coefficients, which are then computed only if the processor needs them.
     pub fn operator(self, operators: &Operators, shape: [usize; 2]) -> Box<dyn Operator> {
         match self {
             Self::Cpu => operators.on(shape),
@@ -76,8 +76,9 @@ impl Device {
     }
 }
 
-/// Returns an upper bound of the memory, bytes, that contacts of these shapes take on a device together. `coated` says whether
-/// the bodies are no homogeneous half-spaces, `caps_differ` whether the largest pressure differs between cells.
+/// Returns an upper bound of the memory, bytes, that contacts of these shapes take on a device together.
+/// `coated` says whether the bodies are no homogeneous half-spaces, `caps_differ` whether the largest
+/// pressure differs between cells.
 ///
 /// # Panics
 /// If there are no shapes.

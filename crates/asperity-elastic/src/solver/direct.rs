@@ -16,8 +16,8 @@ use asperity_base::watch::check_stop;
 const MAX_FREE_CELLS: usize = 20_000;
 
 /// Solves by block principal pivoting (Júdice and Pires, Comput. Oper. Res. 21, 587 (1994)) with a Cholesky
-/// factorisation of the block between the bounds. Under load control a bracketed Newton iteration finds the approach.
-/// It ends exactly, because the load is piecewise linear in the approach.
+/// factorisation of the block between the bounds. Under load control a bracketed Newton iteration finds the
+/// approach. It ends exactly, because the load is piecewise linear in the approach.
 pub(super) fn solve(
     operator: &mut dyn Operator,
     problem: &Problem,
@@ -217,8 +217,8 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         }
     }
 
-    /// Computes the pressure that closes the gap at the free cells while the others stay at their bounds, and the
-    /// slope of its sum.
+    /// Computes the pressure that closes the gap at the free cells while the others stay at their bounds, and
+    /// the slope of its sum.
     fn between_bounds(&mut self, approach: Metre, sets: &Array2<Set>) -> Result<(Field, f64)> {
         let mut pressure = self.problem.pressure_at_bounds(sets);
         let cells = |is: fn(&Set, f64) -> bool| -> Vec<(usize, usize)> {

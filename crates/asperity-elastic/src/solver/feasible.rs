@@ -53,8 +53,8 @@ impl Cells for Bounded<'_> {
     }
 }
 
-/// Sums `terms` of each value and the bounds of its cell over some cells, beginning with the flat cell `first` of the
-/// grid.
+/// Sums `terms` of each value and the bounds of its cell over some cells, beginning with the flat cell
+/// `first` of the grid.
 pub(super) fn sum_within<T: Copy, const N: usize>(
     values: &[T],
     first: usize,
@@ -64,8 +64,8 @@ pub(super) fn sum_within<T: Copy, const N: usize>(
     with_bounds!(bounds, of => sums(values, |cell, value| terms(value, of(first + cell))))
 }
 
-/// Replaces the pressures of some cells, beginning with the flat cell `first` of the grid, by `change` of each and
-/// its bounds.
+/// Replaces the pressures of some cells, beginning with the flat cell `first` of the grid, by `change` of
+/// each and its bounds.
 pub(super) fn map_within(
     pressures: &mut [Pascal],
     first: usize,
@@ -102,9 +102,9 @@ impl Settings<'_> {
     }
 }
 
-/// Brings pressures into their bounds and, under load control, to the load. It first scales the pressures above the
-/// lower bounds of the cells below their upper bounds. If these cells cannot carry the load, it adds the same offset
-/// to all cells.
+/// Brings pressures into their bounds and, under load control, to the load. It first scales the pressures
+/// above the lower bounds of the cells below their upper bounds. If these cells cannot carry the load, it
+/// adds the same offset to all cells.
 pub(super) fn make_feasible(cells: &mut impl Cells, settings: &Settings) {
     cells.map(|p, bounds| bounds.clamp(p));
     let Some(wanted) = settings.pressure_sum() else { return };
@@ -146,8 +146,8 @@ pub(super) struct Range {
     count: usize,
     /// Least lower bound.
     min_lower: Pascal,
-    /// A pressure that reaches any possible sum if every cell has it: the largest finite upper bound if the upper
-    /// bounds differ.
+    /// A pressure that reaches any possible sum if every cell has it: the largest finite upper bound if the
+    /// upper bounds differ.
     max_upper: Option<Pascal>,
 }
 
@@ -167,7 +167,8 @@ impl Range {
     fn bracket(&self, wanted: f64) -> [f64; 2] {
         let each = match self.max_upper {
             None => wanted / self.count as f64,
-            // A single cell without a bound then carries the whole load, including the attraction of the others.
+            // A single cell without a bound then carries the whole load, including the attraction of the
+            // others.
             Some(upper) => {
                 let attraction = self.min_lower.min(0.0).abs() * self.count as f64;
                 upper.max(wanted.abs() + attraction)

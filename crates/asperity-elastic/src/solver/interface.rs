@@ -1,4 +1,5 @@
-//! The interface of two bodies: the tension that acts between their surfaces, which are hard walls to each other.
+//! The interface of two bodies: the tension that acts between their surfaces, which are hard walls to each
+//! other.
 
 use std::fmt::Debug;
 
@@ -8,7 +9,8 @@ use crate::operator::{Compliant, Operator};
 use crate::solver::{Bounds, Control, Params, Solution, Watch, solve_normal_watched};
 use crate::units::{JoulePerSquareMetre, Metre, Pascal};
 
-/// Interface of two bodies. Neither surface penetrates the other; a tension σ(g) may act across the gap g between them.
+/// Interface of two bodies. Neither surface penetrates the other; a tension σ(g) may act across the gap g
+/// between them.
 pub trait Interface: Debug + Send + Sync {
     /// Presses bodies together without friction.
     ///
@@ -34,8 +36,8 @@ pub trait Interface: Debug + Send + Sync {
     /// [`Error::Unsupported`](crate::Error::Unsupported).
     fn check_combined(&self) -> Result<()>;
 
-    /// Checks that passes can be solved with this interface: passes by a circular shift or in an overlap, with a shear that `displaces`
-    /// the bodies normally or does not.
+    /// Checks that passes can be solved with this interface: passes by a circular shift or in an overlap,
+    /// with a shear that `displaces` the bodies normally or does not.
     ///
     /// # Errors
     /// [`Error::Unsupported`](crate::Error::Unsupported).
@@ -60,7 +62,8 @@ pub struct NormalProblem<'a> {
 }
 
 impl NormalProblem<'_> {
-    /// Solves it with an `interface` between bodies with an additional `compliance` of each cell under its own pressure, m/Pa.
+    /// Solves it with an `interface` between bodies with an additional `compliance` of each cell under its
+    /// own pressure, m/Pa.
     pub(super) fn solve(
         &self,
         operator: &mut dyn Operator,

@@ -82,8 +82,8 @@ pub enum Method {
     /// The direct method on small grids, the active set on larger ones.
     #[default]
     Auto,
-    /// Dense quadratic programming by block principal pivoting. It is exact to round-off, and its cost grows with
-    /// the cube of the number of cells in contact.
+    /// Dense quadratic programming by block principal pivoting. It is exact to round-off, and its cost grows
+    /// with the cube of the number of cells in contact.
     Direct,
     /// The constrained conjugate gradient method of Polonsky and Keer, Wear 231, 206 (1999), as printed.
     PolonskyKeer,
@@ -108,8 +108,8 @@ pub struct Params {
 }
 
 impl Params {
-    /// Creates the default parameters: the automatic method, a residual of 10⁻⁶, at most 10 000 operator calls, and the
-    /// processor.
+    /// Creates the default parameters: the automatic method, a residual of 10⁻⁶, at most 10 000 operator
+    /// calls, and the processor.
     pub const fn new() -> Self {
         Self { method: Method::Auto, tolerance: 1e-6, max_convolutions: 10_000, device: Device::Cpu }
     }
@@ -152,8 +152,8 @@ pub struct Stats {
     pub iterations: usize,
     /// Operator calls; a call on a coarser grid counts by its fraction of cells.
     pub convolutions: f64,
-    /// Applications of the near copy of the operator, see [`Operator::apply_near`]; those on a coarser grid count by
-    /// its fraction of cells. They are not counted as convolutions.
+    /// Applications of the near copy of the operator, see [`Operator::apply_near`]; those on a coarser grid
+    /// count by its fraction of cells. They are not counted as convolutions.
     pub near_applications: f64,
     /// Number of returns to the last feasible pressure for lack of progress.
     pub restarts: usize,
@@ -298,8 +298,8 @@ impl Solution {
         self.grid.cell_area() * sum
     }
 
-    /// Returns the elastic energy ½ ΔA Σ p u. Under a periodic boundary it excludes the mean displacement, which
-    /// is free.
+    /// Returns the elastic energy ½ ΔA Σ p u. Under a periodic boundary it excludes the mean displacement,
+    /// which is free.
     pub fn elastic_energy(&self) -> Joule {
         let [pressure, displacement] = [&self.pressure, &self.displacement].map(flat);
         let [work] = self.merged(|cells| {
@@ -383,17 +383,17 @@ fn attraction(bounds: &Bounds, cells: usize) -> Pascal {
 /// p = lower ⇒ g ≥ 0;   lower < p < upper ⇒ g = 0;   p = upper ⇒ g ≤ 0;   g = h + C p − δ
 /// ```
 ///
-/// The solution minimises ½ pᵀCp − pᵀ(δ − h) over the box of the `bounds`. `initial_gap` is h. `start` is a pressure
-/// near the solution, if one is known.
+/// The solution minimises ½ pᵀCp − pᵀ(δ − h) over the box of the `bounds`. `initial_gap` is h. `start` is a
+/// pressure near the solution, if one is known.
 ///
-/// On a grid that is divided among [ranks](crate::ranks), all ranks solve it together by the active set. Each rank
-/// passes the gap, the bounds and the start on the rows of its [`Operator::slab`], and the common control. It gets
-/// the solution on these rows, with the load of these rows.
+/// On a grid that is divided among [ranks](crate::ranks), all ranks solve it together by the active set. Each
+/// rank passes the gap, the bounds and the start on the rows of its [`Operator::slab`], and the common
+/// control. It gets the solution on these rows, with the load of these rows.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for invalid input, [`Error::BeyondPlasticLimit`] if the load exceeds the sum of the upper
-/// bounds, [`Error::PeriodicFullContact`], [`Error::NotConverged`], [`Error::Unsupported`] for another method on
-/// several ranks.
+/// [`Error::OutOfRange`] for invalid input, [`Error::BeyondPlasticLimit`] if the load exceeds the sum of the
+/// upper bounds, [`Error::PeriodicFullContact`], [`Error::NotConverged`], [`Error::Unsupported`] for another
+/// method on several ranks.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -512,8 +512,8 @@ fn solve_as_given(
     Ok(answer)
 }
 
-/// Returns the self-influence c₀: displacement of a cell per unit pressure on itself. A single periodic cell has
-/// none, because its mean is free; the displacement of a wave of this length then serves as a scale.
+/// Returns the self-influence c₀: displacement of a cell per unit pressure on itself. A single periodic cell
+/// has none, because its mean is free; the displacement of a wave of this length then serves as a scale.
 fn self_influence(operator: &dyn Operator) -> f64 {
     match operator.influence(0, 0) {
         c0 if c0 > 0.0 => c0,
@@ -521,8 +521,9 @@ fn self_influence(operator: &dyn Operator) -> f64 {
     }
 }
 
-/// Returns the lowest height if the heights are far from zero compared with their range or with the depth of the
-/// contact, so that h + u would lose digits of u. Heights are then measured from the lowest one without loss.
+/// Returns the lowest height if the heights are far from zero compared with their range or with the depth of
+/// the contact, so that h + u would lose digits of u. Heights are then measured from the lowest one without
+/// loss.
 fn far_datum(problem: &Problem) -> Option<Metre> {
     let Problem { initial_gap, bounds, settings, slab } = problem;
     let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);

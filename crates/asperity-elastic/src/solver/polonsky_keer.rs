@@ -9,17 +9,17 @@ use asperity_base::watch::check_stop;
 
 /// Relative distance from its upper bound below which a pressure differs from it only by rounding.
 const ROUNDING: f64 = 1e-12;
-/// Number of convolutions without a new smallest residual after which steps are damped. The published steps, clipped
-/// at two bounds, may oscillate forever.
+/// Number of convolutions without a new smallest residual after which steps are damped. The published steps,
+/// clipped at two bounds, may oscillate forever.
 const MAX_STAGNATION: f64 = 100.0;
 /// The damping factor of these steps.
 const DAMPING: f64 = 0.5;
-/// Fraction of the interference of a cell that its first pressure closes under approach control, as if the cell were
-/// alone.
+/// Fraction of the interference of a cell that its first pressure closes under approach control, as if the
+/// cell were alone.
 const FIRST_PRESSURE: f64 = 0.3;
 
-/// Solves by the method of Polonsky and Keer (1999), with two operator calls per iteration. Cells at their upper bound
-/// leave the conjugate directions in the same way as cells at their lower bound.
+/// Solves by the method of Polonsky and Keer (1999), with two operator calls per iteration. Cells at their
+/// upper bound leave the conjugate directions in the same way as cells at their lower bound.
 pub(super) fn solve(
     operator: &mut dyn Operator,
     problem: &Problem,
@@ -79,7 +79,8 @@ pub(super) fn solve(
         let is_free: Vec<bool> =
             pressure.iter().enumerate().map(|(cell, p)| bounds.at(cell).is_free(*p)).collect();
         if !is_free.contains(&true) {
-            // All cells are at bounds, but not in equilibrium: one damped diagonal step along the gap frees some.
+            // All cells are at bounds, but not in equilibrium: one damped diagonal step along the gap frees
+            // some.
             ndarray::Zip::from(&mut pressure).and(&displacement).and(initial_gap).for_each(|p, u, h| {
                 *p += 0.5 * damping * (state.approach - h - u) / settings.self_influence;
             });

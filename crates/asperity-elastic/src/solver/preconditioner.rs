@@ -20,14 +20,14 @@ struct Scratch {
     image: Vec<f32>,
 }
 
-/// The preconditioner `z = A (I − T) S (I − T)ᵀ A r + A P D B D Pᵀ A r`, symmetric and positive definite on the free
-/// cells A.
+/// The preconditioner `z = A (I − T) S (I − T)ᵀ A r + A P D B D Pᵀ A r`, symmetric and positive definite on
+/// the free cells A.
 ///
-/// If cells differ in the displacement cᵢ by their own pressure, then z = D M D r with the M of their mean c, and D =
-/// √(c/cᵢ). This is exact if the cells do not displace each other.
+/// If cells differ in the displacement cᵢ by their own pressure, then z = D M D r with the M of their mean c,
+/// and D = √(c/cᵢ). This is exact if the cells do not displace each other.
 ///
-/// S is the [`SparseInverse`] on the free cells, for the local part of the residual. B is the stiffness of the long
-/// waves, for its smooth part. [`CoarseCorrection`] defines P, D and T.
+/// S is the [`SparseInverse`] on the free cells, for the local part of the residual. B is the stiffness of
+/// the long waves, for its smooth part. [`CoarseCorrection`] defines P, D and T.
 pub(super) struct Preconditioner {
     slab: Slab,
     /// The rows on either side of the slab that S reaches.
@@ -45,8 +45,8 @@ pub(super) struct Preconditioner {
     scales: Option<Vec<f32>>,
 }
 
-/// Sets and residual of a slab and the rows on either side. With these rows the cells of this rank have the values of
-/// a single process.
+/// Sets and residual of a slab and the rows on either side. With these rows the cells of this rank have the
+/// values of a single process.
 struct SlabWithNeighbours {
     sets: Sets,
     values: Vec<f32>,
@@ -126,8 +126,8 @@ impl Preconditioner {
         });
     }
 
-    /// Computes the preconditioned residual `z = M r`. The function `r` returns the residual of a free cell. The other cells have
-    /// z = 0. Returns the sums Σ z, Σ r and Σ r z over the free cells.
+    /// Computes the preconditioned residual `z = M r`. The function `r` returns the residual of a free cell.
+    /// The other cells have z = 0. Returns the sums Σ z, Σ r and Σ r z over the free cells.
     pub(super) fn apply(&mut self, sets: &Sets, r: impl Fn(usize) -> f32 + Sync, z: &mut [f32]) -> [f64; 3] {
         let bands = sets.bands();
         let parts = bands.cut_mut(z).zip(bands.cut(sets.of())).enumerate();
@@ -139,8 +139,8 @@ impl Preconditioner {
         self.replace(sets, z)
     }
 
-    /// Replaces the residual r by the preconditioned residual `z = M r`. Both are zero for cells that are not free. Returns the sums
-    /// Σ z, Σ r and Σ r z.
+    /// Replaces the residual r by the preconditioned residual `z = M r`. Both are zero for cells that are not
+    /// free. Returns the sums Σ z, Σ r and Σ r z.
     pub(super) fn replace(&mut self, sets: &Sets, values: &mut [f32]) -> [f64; 3] {
         let Some(scales) = self.scales.take() else { return self.apply_alike(sets, values) };
         let sum = |values: &[f32]| sums(values, |_, value| [f64::from(value)]);
@@ -172,8 +172,8 @@ impl Preconditioner {
         sums
     }
 
-    /// [`Self::apply_alike`] on the rows of a rank and its neighbouring rows. The values on the neighbouring rows
-    /// are not valid.
+    /// [`Self::apply_alike`] on the rows of a rank and its neighbouring rows. The values on the neighbouring
+    /// rows are not valid.
     fn apply_on_rows(&mut self, sets: &Sets, values: &mut [f32]) -> [f64; 3] {
         let Self { sparse, coarse, patterns, above, scratch, .. } = self;
         let [residual_sum, coarse_product] = coarse.solve(sets, values);
@@ -222,8 +222,8 @@ impl Preconditioner {
     }
 }
 
-/// Returns √(c/cᵢ), from the mean and the individual displacement of a cell by its own pressure; none if cells do not
-/// differ.
+/// Returns √(c/cᵢ), from the mean and the individual displacement of a cell by its own pressure; none if
+/// cells do not differ.
 fn scales(operator: &dyn Operator) -> Option<Vec<f32>> {
     match operator.self_influence() {
         CellValues::Uniform(_) => None,
@@ -234,8 +234,8 @@ fn scales(operator: &dyn Operator) -> Option<Vec<f32>> {
     }
 }
 
-/// Creates the sparse inverse of the operator's influence matrix on `rows` of its grid, `all` of them or those of a
-/// rank. Periodic coefficients are relative to the far field.
+/// Creates the sparse inverse of the operator's influence matrix on `rows` of its grid, `all` of them or
+/// those of a rank. Periodic coefficients are relative to the far field.
 fn sparse_inverse(operator: &dyn Operator, rows: [usize; 2], all: bool) -> SparseInverse {
     let shape = operator.slab().whole_grid().shape;
     let periodic = operator.boundary().leaves_mean_free();

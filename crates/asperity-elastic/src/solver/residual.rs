@@ -20,16 +20,17 @@ pub struct Residual {
     pub scale: Metre,
 }
 
-/// Computes the scale-free complementarity residual η of a `pressure` within its `bounds` and its `displacement` u =
-/// C p.
+/// Computes the scale-free complementarity residual η of a `pressure` within its `bounds` and its
+/// `displacement` u = C p.
 ///
 /// ```text
 /// φ = c₀ (p − clip(p + w/c₀)),   w = δ − h − u,   η = max|φ| / max(std(u), 10⁻⁴ max|u|, 10⁻⁴ c₀ max p)
 /// ```
 ///
-/// clip restricts a pressure to the bounds of its cell. c₀ is the displacement of a cell per unit pressure on itself.
-/// φ is zero exactly in equilibrium. Without an `approach` (load control) δ is the multiplier of the load: the mean
-/// of h + u over the cells between their bounds, weighted by the pressure above the lower bound.
+/// clip restricts a pressure to the bounds of its cell. c₀ is the displacement of a cell per unit pressure on
+/// itself. φ is zero exactly in equilibrium. Without an `approach` (load control) δ is the multiplier of the
+/// load: the mean of h + u over the cells between their bounds, weighted by the pressure above the lower
+/// bound.
 ///
 /// # Panics
 /// If a field has another shape than the others.
@@ -103,8 +104,8 @@ impl Multiplier {
         this
     }
 
-    /// Returns the multiplier. If all cells are at a bound, any approach between those of the capped and of the
-    /// open cells is in equilibrium, and the smallest is returned.
+    /// Returns the multiplier. If all cells are at a bound, any approach between those of the capped and of
+    /// the open cells is in equilibrium, and the smallest is returned.
     pub(super) fn approach(&self) -> Metre {
         if self.weight > 0.0 { self.moment / self.weight } else { self.max_capped }
     }
@@ -156,8 +157,8 @@ impl ResidualSums {
         lanes.sums()
     }
 
-    /// [`Self::of`] for the cells with these pressures, approaches h + u and gaps h, with a function for their bounds.
-    /// It is faster.
+    /// [`Self::of`] for the cells with these pressures, approaches h + u and gaps h, with a function for
+    /// their bounds. It is faster.
     pub(super) fn of_fields(
         [pressure, touch, gap]: [&[f64]; 3],
         bounds: impl Fn(usize) -> Interval,
@@ -273,8 +274,8 @@ impl<const N: usize> Lanes<N> {
     }
 }
 
-/// Merges the sums of several sets of cells. Variances merge by the distance of their means (Chan, Golub and LeVeque
-/// 1979).
+/// Merges the sums of several sets of cells. Variances merge by the distance of their means (Chan, Golub and
+/// LeVeque 1979).
 impl Merged for ResidualSums {
     fn and(self, other: Self) -> Self {
         let cells = self.cells + other.cells;

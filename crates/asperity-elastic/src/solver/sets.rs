@@ -110,8 +110,8 @@ impl Sets {
         self.free.iter()
     }
 
-    /// Returns the free cells of a row of the grid, by their indices in its band, and the index of the first cell
-    /// of the row.
+    /// Returns the free cells of a row of the grid, by their indices in its band, and the index of the first
+    /// cell of the row.
     pub(super) fn row(&self, row: usize) -> (&[u32], usize) {
         let [band, row] = self.bands.place(row);
         let FreeCells { cells, before } = &self.free[band];

@@ -11,8 +11,8 @@ use crate::solver::bounds::Bounds;
 
 /// Site of one of the contacts that share an approach.
 ///
-/// A site may create its operator and its initial gap on each request, so that many simultaneous contacts take little
-/// memory.
+/// A site may create its operator and its initial gap on each request, so that many simultaneous contacts
+/// take little memory.
 pub trait Site: Sync {
     /// Returns the grid of the contact, or the rows of this rank.
     fn grid(&self) -> Grid;

@@ -8,18 +8,18 @@ use crate::solver::uniform::Gradients;
 use crate::solver::{Params, Stats};
 use crate::units::NewtonPerMetre;
 
-/// Computes the normal stiffness K = dW/dδ of a contact. The `elastic` cells close their gap, and the pressures of
-/// all others are constant:
+/// Computes the normal stiffness K = dW/dδ of a contact. The `elastic` cells close their gap, and the
+/// pressures of all others are constant:
 ///
 /// ```text
 /// C_EE p' = 1   on the elastic cells E,   K = ΔA Σ p'
 /// ```
 ///
-/// The elastic cells are those with 0 < p < H. The pressure of a cell at the hardness or of an open cell cannot
-/// change. Under a periodic boundary δ is the approach of the mean planes of the surfaces, because the mean
-/// displacement is 0. In full elastic contact of a period the stiffness is infinite, and none is returned. Under a
-/// boundary that is periodic along one axis, δ is relative to the datum of the line. The error of K is about a tenth
-/// of the tolerance of `params`.
+/// The elastic cells are those with 0 < p < H. The pressure of a cell at the hardness or of an open cell
+/// cannot change. Under a periodic boundary δ is the approach of the mean planes of the surfaces, because the
+/// mean displacement is 0. In full elastic contact of a period the stiffness is infinite, and none is
+/// returned. Under a boundary that is periodic along one axis, δ is relative to the datum of the line. The
+/// error of K is about a tenth of the tolerance of `params`.
 ///
 /// Sneddon, Int. J. Eng. Sci. 3, 47 (1965): K = 2 E* a for any axisymmetric contact of radius a.
 ///

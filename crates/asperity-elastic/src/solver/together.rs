@@ -22,12 +22,12 @@ pub struct JointSolution {
     pub stats: Stats,
 }
 
-/// Solves contacts of one pitch and modulus whose loads add up to `load`. The approach δ is the multiplier of that
-/// sum. This is one box-constrained problem with a block-diagonal influence matrix. `start` is a pressure near the
-/// solution for each contact, if known, and `tolerance` the η at which a state is accepted.
+/// Solves contacts of one pitch and modulus whose loads add up to `load`. The approach δ is the multiplier of
+/// that sum. This is one box-constrained problem with a block-diagonal influence matrix. `start` is a
+/// pressure near the solution for each contact, if known, and `tolerance` the η at which a state is accepted.
 ///
-/// It takes fewer than 60 bytes of memory per cell of each contact, in addition to its site. The residual refers to
-/// all cells together.
+/// It takes fewer than 60 bytes of memory per cell of each contact, in addition to its site. The residual
+/// refers to all cells together.
 ///
 /// # Errors
 /// [`crate::Error::NotConverged`], [`crate::Error::Interrupted`].
@@ -57,9 +57,9 @@ pub fn solve_together(
     Ok(JointSolution { approach: found.residual.approach, pressures, stats: found.stats })
 }
 
-/// Solves contacts under one approach, as one batch on the device of the `params`; under load control their loads add up to it.
-/// Each has the bounds and, if known, a pressure near the solution. The `definition` is that of the operator of the largest.
-/// The residual of a contact is its own.
+/// Solves contacts under one approach, as one batch on the device of the `params`; under load control their
+/// loads add up to it. Each has the bounds and, if known, a pressure near the solution. The `definition` is
+/// that of the operator of the largest. The residual of a contact is its own.
 ///
 /// # Errors
 /// [`crate::Error::NotConverged`], [`crate::Error::Interrupted`], and those of devices.

@@ -27,14 +27,14 @@ pub struct UniformDisplacement {
 
 /// Solves `(C + D) q = 1` on the `cells`, with q = 0 elsewhere, by preconditioned conjugate gradients.
 ///
-/// C is the `operator`, D ≥ 0 the `compliance` of each cell by itself, a number or a field, in the units of C; it does not count
-/// off the cells. `start` is a traction near the answer up to a factor, if one is known; off the cells it does not count.
-/// The residual max |(C + D) q − 1| is below the tolerance of `params`.
+/// C is the `operator`, D ≥ 0 the `compliance` of each cell by itself, a number or a field, in the units of
+/// C; it does not count off the cells. `start` is a traction near the answer up to a factor, if one is known;
+/// off the cells it does not count. The residual max |(C + D) q − 1| is below the tolerance of `params`.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a compliance that is negative or not finite on a cell, [`Error::NotConverged`],
-/// [`Error::Unsupported`] on several ranks, and where nothing determines the traction: all cells of a grid that is
-/// periodic along both axes, with D = 0.
+/// [`Error::Unsupported`] on several ranks, and where nothing determines the traction: all cells of a grid
+/// that is periodic along both axes, with D = 0.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -161,7 +161,8 @@ impl Gradients {
         }
     }
 
-    /// Computes the residual from the traction: the one that the steps have updated has gathered rounding errors.
+    /// Computes the residual from the traction: the one that the steps have updated has gathered rounding
+    /// errors.
     fn renew(&mut self, operator: &mut dyn Operator) {
         operator.apply(&self.traction, &mut self.response);
         self.stats.convolutions += 1.0;
@@ -210,8 +211,8 @@ impl Gradients {
     }
 }
 
-/// The preconditioner: that of a contact on the cells which the bodies displace, and their own compliance on those which hardly
-/// anything else displaces.
+/// The preconditioner: that of a contact on the cells which the bodies displace, and their own compliance on
+/// those which hardly anything else displaces.
 struct CellPreconditioner {
     sets: Sets,
     /// None without cells that the bodies displace.
@@ -279,5 +280,6 @@ fn sets(shape: [usize; 2], is_free: Vec<bool>) -> Sets {
     sets
 }
 
-/// Ratio of a cell's own compliance to its self-influence above which the cell stands alone in the preconditioner.
+/// Ratio of a cell's own compliance to its self-influence above which the cell stands alone in the
+/// preconditioner.
 const ALONE: f64 = 10.0;

@@ -142,8 +142,8 @@ fn uniform_bounds_as_fields_come_to_the_same() {
     assert_eq!(field.pressure, uniform.pressure);
 }
 
-/// Two flat bodies that attract each other with a stress σ₀ at any distance stay together until the pull is σ₀ on all
-/// cells.
+/// Two flat bodies that attract each other with a stress σ₀ at any distance stay together until the pull is
+/// σ₀ on all cells.
 #[test]
 fn bodies_that_attract_each_other_bear_a_pull() {
     let grid = Grid::new([12, 12], [1.0, 1.0]).unwrap();

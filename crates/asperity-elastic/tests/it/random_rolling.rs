@@ -1,7 +1,8 @@
-//! Steady rolling with random combinations of options; each solution is checked against the conditions of friction cell by
-//! cell.
+//! Steady rolling with random combinations of options; each solution is checked against the conditions of
+//! friction cell by cell.
 //!
-//! `CASES=1000 cargo test -p asperity-contact --test it random_rolling` tries this number, starting from the seed `SEED`.
+//! `CASES=1000 cargo test -p asperity-contact --test it random_rolling` tries this number, starting from the
+//! seed `SEED`.
 
 use asperity_base::{Error, Field, Grid};
 use asperity_elastic::material::{Compliances, Material};
@@ -50,7 +51,8 @@ struct Case {
     hardness: f64,
     /// Whether the hardness differs from cell to cell.
     maps: bool,
-    /// Curvature of the gap along x and y, offset of its middle from that of the grid, amplitude and phase of waves.
+    /// Curvature of the gap along x and y, offset of its middle from that of the grid, amplitude and phase of
+    /// waves.
     curvature: [f64; 2],
     middle: [f64; 2],
     rough: f64,

@@ -115,7 +115,8 @@ fn the_steady_state_is_what_rolling_cell_by_cell_comes_to() {
     let force = |x, y| Creep::Force([x, y]);
     let (free, periodic) = (Boundary::FREE, Boundary::PERIODIC);
     let elastic = Bounds::ELASTIC;
-    // Shape, bodies, boundary, roughness, friction, bounds, prescribed values relative to the load or to 1, spin.
+    // Shape, bodies, boundary, roughness, friction, bounds, prescribed values relative to the load or to 1,
+    // spin.
     #[rustfmt::skip]
     let cases = [
         ([24, 24], alike, free, 0.0, plain(0.3), elastic.clone(), force(0.18, 0.0), 0.0),
@@ -233,8 +234,8 @@ fn a_sphere_rolls_at_the_price_of_some_increments() {
     }
 }
 
-/// The supplied energy is that of force, moment and pressure; the energy of the slip of the cells converges to it as the
-/// cells become small.
+/// The supplied energy is that of force, moment and pressure; the energy of the slip of the cells converges
+/// to it as the cells become small.
 #[test]
 fn the_work_of_the_slip_comes_to_the_energy_that_is_given() {
     let radius = 0.3;
@@ -286,7 +287,8 @@ fn the_work_of_the_slip_comes_to_the_energy_that_is_given() {
     }
 }
 
-/// In gross slip all frictional energy is that of the slip, up to the step from cell to cell of a stationary shear.
+/// In gross slip all frictional energy is that of the slip, up to the step from cell to cell of a stationary
+/// shear.
 #[test]
 fn in_gross_sliding_all_energy_goes_into_slip() {
     let (grid, gap) = sphere(12, 1.0);
@@ -308,7 +310,8 @@ fn in_gross_sliding_all_energy_goes_into_slip() {
     assert!((rolled.slip_work() / taken - 1.0).abs() < 1e-3, "{:e} {taken:e}", rolled.slip_work());
 }
 
-/// On a grid with one column there is no strain along the rolling direction: all cells slip according to the creepage.
+/// On a grid with one column there is no strain along the rolling direction: all cells slip according to the
+/// creepage.
 #[test]
 fn a_single_column_slides_whatever_the_creepage() {
     let pair = pair([1.0, 30.0]);

@@ -15,8 +15,8 @@ use crate::figures::RINGS;
 use crate::words::numbers::meaning;
 pub use table::{Row, Table};
 
-/// Returns the tilt or the form that makes most of the variance of the heights: a phrase with its verb, its share of Sq², and the
-/// level that removes it.
+/// Returns the tilt or the form that makes most of the variance of the heights: a phrase with its verb, its
+/// share of Sq², and the level that removes it.
 pub fn prevailing_form(topography: &Topography) -> Option<(&'static str, f64, Level)> {
     let left = |level| topography.clone().level(level).map_or(f64::NAN, |left| left.sq().powi(2));
     let all = left(Level::Mean);
@@ -128,8 +128,8 @@ pub fn line_of(topography: &Topography) -> Option<Axis> {
     }
 }
 
-/// Returns the default cut-off for a line: the longest of ISO 21920-3 that fits five times into the line, else a
-/// fifth of the line.
+/// Returns the default cut-off for a line: the longest of ISO 21920-3 that fits five times into the line,
+/// else a fifth of the line.
 pub fn cutoff_of_a_line(topography: &Topography) -> Option<Metre> {
     const CUTOFFS: [Metre; 5] = [8e-3, 2.5e-3, 0.8e-3, 0.25e-3, 0.08e-3];
     let axis = line_of(topography)?;

@@ -17,8 +17,8 @@ const DPI: f64 = 110.0;
 /// Index of the colour that leaves the frame before as it is.
 const UNCHANGED: u8 = 255;
 
-/// Shows `frames` one after the other, each for `delay` hundredths of a second, in the GIF `path`. The frames differ in a map
-/// of `colours` only, and are of one size.
+/// Shows `frames` one after the other, each for `delay` hundredths of a second, in the GIF `path`. The frames
+/// differ in a map of `colours` only, and are of one size.
 pub(crate) fn animation(path: &Path, frames: &[Scene], colours: Colours, delay: u16) -> Result<()> {
     let images: Vec<Image> =
         frames.par_iter().map(|frame| pixels(frame, DPI)).collect::<io::Result<_>>().map_err(at(path))?;

@@ -231,8 +231,8 @@ impl Scale {
         Self { ticks, minor: minor.map(share).collect(), symbol, low, high, factor, log: true }
     }
 
-    /// Where `value` (SI) lies on the axis, from 0 at its low to 1 at its high end and beyond; `None` if the axis cannot
-    /// show it.
+    /// Where `value` (SI) lies on the axis, from 0 at its low to 1 at its high end and beyond; `None` if the
+    /// axis cannot show it.
     pub(super) fn share(&self, value: f64) -> Option<f64> {
         let position = if self.log { (value / self.factor).log10() } else { value / self.factor };
         Some((position - self.low) / (self.high - self.low)).filter(|share| share.is_finite())

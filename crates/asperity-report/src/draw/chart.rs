@@ -188,7 +188,8 @@ impl Figure for Charts {
 }
 
 impl Charts {
-    /// The names of all series, each once, which says how they look; and their legend, if there is more than one.
+    /// The names of all series, each once, which says how they look; and their legend, if there is more than
+    /// one.
     fn names(&self) -> (Vec<&str>, Legend) {
         let mut names: Vec<&str> = Vec::new();
         let mut legend = Legend::default();
@@ -319,8 +320,8 @@ struct Style {
 }
 
 impl Style {
-    /// The look of a series, by the place of its name; "a body, undeformed" has the colour of "a body", and so have "a
-    /// method, one way" and "a method, another way".
+    /// The look of a series, by the place of its name; "a body, undeformed" has the colour of "a body", and
+    /// so have "a method, one way" and "a method, another way".
     fn of(series: &Series, names: &[&str]) -> Self {
         let base =
             |name: &str| name.split_once(", ").map_or_else(|| name.to_owned(), |(base, _)| base.to_owned());

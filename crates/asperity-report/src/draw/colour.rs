@@ -106,15 +106,15 @@ impl Shading {
         }
     }
 
-    /// The image, `width` × `height` pixels, of `cells` `[right, up]` with values in a `range`: each pixel is the mean over its
-    /// area, in colour over the cells that have one.
+    /// The image, `width` × `height` pixels, of `cells` `[right, up]` with values in a `range`: each pixel is
+    /// the mean over its area, in colour over the cells that have one.
     pub(super) fn image(&self, cells: ArrayView2<f64>, range: &Range, [width, height]: [usize; 2]) -> Image {
         let columns = shares(cells.nrows(), width);
         let rows = shares(cells.ncols(), height);
         let [low, high] = self.range;
         let linear = |value: f64| Tone::At((value - low) / (high - low));
-        // Columns of pixels, whose cells are neighbours in memory. The cases are those of [`Self::tone`], told apart here rather than
-        // in each cell.
+        // Columns of pixels, whose cells are neighbours in memory. The cases are those of [`Self::tone`],
+        // told apart here rather than in each cell.
         let drawn: Vec<Vec<Rgb>> = match self.colours {
             _ if range.has_missing => self.columns(cells, [&columns, &rows], |value| self.tone(value)),
             Colours::Heights | Colours::Signed | Colours::Between => {

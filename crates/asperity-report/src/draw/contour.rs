@@ -4,8 +4,8 @@ use asperity_base::Field;
 
 use super::scene::Point;
 
-/// The pieces of the line at a level, by marching squares between the middles of the cells; `place` maps cells as numbers, from 0 at
-/// the middle of the first one, to the sheet.
+/// The pieces of the line at a level, by marching squares between the middles of the cells; `place` maps
+/// cells as numbers, from 0 at the middle of the first one, to the sheet.
 pub(super) fn line(field: &Field, level: f64, place: impl Fn([f64; 2]) -> Option<Point>) -> Vec<Vec<Point>> {
     let mut pieces = Vec::new();
     for i in 0..field.nrows().saturating_sub(1) {

@@ -67,7 +67,8 @@ impl<'a> Map<'a> {
         Self::of(title, field.view(), ends, ["x", "y"], Unit::Length, quantity, colours)
     }
 
-    /// A section along x into the depth z, which runs downwards from the surface; `ends` say where it begins and ends.
+    /// A section along x into the depth z, which runs downwards from the surface; `ends` say where it begins
+    /// and ends.
     pub fn section(
         title: impl Into<String>,
         field: &'a Field,
@@ -96,7 +97,8 @@ impl<'a> Map<'a> {
         Self { down: true, ..map }
     }
 
-    /// A field over a plane of lags or of wavenumbers, with the origin in its middle sample: `n/2` of `n` samples.
+    /// A field over a plane of lags or of wavenumbers, with the origin in its middle sample: `n/2` of `n`
+    /// samples.
     pub fn plane(
         title: impl Into<String>,
         field: &'a Field,
@@ -160,7 +162,8 @@ impl<'a> Map<'a> {
         }
     }
 
-    /// The same map with given values at the ends of the colours, SI. Maps of one sheet with the same share a bar.
+    /// The same map with given values at the ends of the colours, SI. Maps of one sheet with the same share a
+    /// bar.
     pub fn range(mut self, range: [f64; 2]) -> Self {
         // Heights that are all the same have no range.
         if self.shading.colours.take_any_sign() && range[0] >= range[1] {
@@ -210,7 +213,8 @@ impl<'a> Map<'a> {
         Self { block: Some((size as f64, name.into())), ..self }
     }
 
-    /// The same section with a thick line along the surface over each of the `spans`, from and to along x, SI.
+    /// The same section with a thick line along the surface over each of the `spans`, from and to along x,
+    /// SI.
     pub fn with_spans(self, spans: Vec<[f64; 2]>, name: &'static str) -> Self {
         Self { spans: (spans, name), ..self }
     }
@@ -393,7 +397,8 @@ fn contour(field: &Field, level: f64, frame: &Frame, ends: [[f64; 2]; 2]) -> Vec
     super::contour::line(field, level, place)
 }
 
-/// Means of a vector over blocks of cells, as arrows from the blocks' middles on; the longest is as long as a block.
+/// Means of a vector over blocks of cells, as arrows from the blocks' middles on; the longest is as long as a
+/// block.
 fn arrows(scene: &mut Scene, vector: [&Field; 2], frame: &Frame, ends: [[f64; 2]; 2]) {
     let shape = [vector[0].nrows(), vector[0].ncols()];
     let block = shape[0].max(shape[1]).div_ceil(ARROWS);

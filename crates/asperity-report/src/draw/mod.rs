@@ -1,9 +1,9 @@
 //! Figures: maps of fields, curves, reliefs, matrices, animations.
 //!
-//! A figure is a value; it draws itself as a [`Scene`] of shapes, images and text, which becomes a PNG, SVG or PDF file.
-//! Lengths, pressures and all else come in SI and are shown in the unit that suits them. A field is indexed `[ix, iy]`,
-//! x to the right, y up. Undefined (NaN) cells are light grey. The same figure gives the same bytes on every machine: the
-//! font is part of the program.
+//! A figure is a value; it draws itself as a [`Scene`] of shapes, images and text, which becomes a PNG, SVG
+//! or PDF file. Lengths, pressures and all else come in SI and are shown in the unit that suits them. A field
+//! is indexed `[ix, iy]`, x to the right, y up. Undefined (NaN) cells are light grey. The same figure gives
+//! the same bytes on every machine: the font is part of the program.
 
 mod animation;
 mod axis;

@@ -87,7 +87,8 @@ pub(crate) fn captioned(figure: &dyn Figure, caption: &Caption, paper: &Paper) -
     scene.under(&lines)
 }
 
-/// Figures, each under its caption, of one size: those with fewer lines of a caption or a legend have room left.
+/// Figures, each under its caption, of one size: those with fewer lines of a caption or a legend have room
+/// left.
 pub(crate) fn captioned_alike<F: Figure>(figures: &[(F, Caption)], paper: &Paper) -> Vec<Scene> {
     let all = figures.iter().map(|(figure, caption)| {
         let scene = figure.scene(paper);

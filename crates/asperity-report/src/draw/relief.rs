@@ -17,7 +17,8 @@ const WIDTH: f64 = 360.0;
 const MAX_HEIGHT: f64 = 0.8;
 /// Height of the relief over the longer side of its base.
 const RISE: f64 = 0.22;
-/// Where the eye stands, in degrees from x towards y, and how high above the plane: it sees the corner of least x and y.
+/// Where the eye stands, in degrees from x towards y, and how high above the plane: it sees the corner of
+/// least x and y.
 const AZIMUTH: f64 = -120.0;
 /// Elevation of the eye above the horizon, degrees.
 const ELEVATION: f64 = 32.0;
@@ -200,7 +201,8 @@ impl Relief<'_> {
         });
         let next = |index: usize, axis: usize| (index + 1).min(counts[axis] - 1);
         let [rows, columns] = counts.map(|count| count.max(2) - 1);
-        // The row and the columns of a run of patches, and the distances down the canvas of its highest and its lowest corner.
+        // The row and the columns of a run of patches, and the distances down the canvas of its highest and
+        // its lowest corner.
         let run = |i: usize, first: usize| {
             let patches = first..(first + RUN).min(columns);
             let ends = (first..=next(patches.end - 1, 1))

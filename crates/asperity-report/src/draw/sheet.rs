@@ -62,7 +62,8 @@ impl<'a> Maps<'a> {
         self.maps.len() > 1 && self.maps.iter().all(alike)
     }
 
-    /// The magnitude that decides the unit of a map's bar: one for all maps of a quantity that are not worlds apart.
+    /// The magnitude that decides the unit of a map's bar: one for all maps of a quantity that are not worlds
+    /// apart.
     fn magnitude(&self, map: &Map) -> f64 {
         let of = |map: &Map| map.shading.range.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
         let alike = self.maps.iter().filter(|other| other.quantity == map.quantity && !other.is_flat());
@@ -224,8 +225,8 @@ fn fitted(width: f64, height: f64, aspect: f64) -> [f64; 2] {
     [width, width / aspect]
 }
 
-/// The range of colours for heights that are seen together: all of them, or, where a few stand out, from the 0.1 % to
-/// the 99.9 % percentile; then also a remark that says so.
+/// The range of colours for heights that are seen together: all of them, or, where a few stand out, from the
+/// 0.1 % to the 99.9 % percentile; then also a remark that says so.
 pub(crate) fn range_of_heights<'a>(
     fields: impl IntoIterator<Item = &'a asperity_base::Field>,
 ) -> Option<([f64; 2], Option<&'static str>)> {

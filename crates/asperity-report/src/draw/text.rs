@@ -7,11 +7,12 @@ use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 use super::scene::{Anchor, Words};
 
-/// DejaVu Sans 2.35, whose licence permits embedding. Its `OS/2` table is brought to version 4 and the direction in `head`
-/// to 2, which font-subset asks for; tables of its layout are left out.
+/// DejaVu Sans 2.35, whose licence permits embedding. Its `OS/2` table is brought to version 4 and the
+/// direction in `head` to 2, which font-subset asks for; tables of its layout are left out.
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) const FONT: &[u8] = include_bytes!("../../assets/DejaVuSans.ttf");
-/// Its Latin and Greek letters, digits, units and mathematical signs, for a page that is loaded first (`assets/make_small_font.sh`).
+/// Its Latin and Greek letters, digits, units and mathematical signs, for a page that is loaded first
+/// (`assets/make_small_font.sh`).
 #[cfg(target_arch = "wasm32")]
 pub(super) const FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-small.ttf");
 pub(super) const FAMILY: &str = "DejaVu Sans";

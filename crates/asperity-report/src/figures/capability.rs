@@ -42,7 +42,8 @@ pub(super) fn draw(results: &Results, done: &[usize], of: &str, of_all: &str, sh
     Ok(())
 }
 
-/// Number in the name of the file of the last load cycle: its pass, or its last increment. `None` for a capability of single contacts.
+/// Number in the name of the file of the last load cycle: its pass, or its last increment. `None` for a
+/// capability of single contacts.
 pub(crate) fn load_cycle<C: Capability>(rows: &[C::Row]) -> Option<usize> {
     let last = rows.last().filter(|_| C::OF_LOAD_CYCLES)?;
     last.pass().or(last.cycle().map(|[increment, _]| increment))
@@ -65,7 +66,8 @@ fn maps<C: Capability>(fields: &Fields, rows: &[C::Row], of: &str, sheet: &mut S
     Ok(())
 }
 
-/// Whether a map with this scale is logarithmic, and down to which share of its largest value, if it has a limit.
+/// Whether a map with this scale is logarithmic, and down to which share of its largest value, if it has a
+/// limit.
 pub(crate) fn logarithmic(scale: Scale, field: &Field) -> Option<Option<f64>> {
     match scale {
         Scale::FromZeroOrLogarithmic => field.iter().all(|value| *value > 0.0).then_some(None),
@@ -103,8 +105,8 @@ pub fn field_map<'a, R>(
     }])
 }
 
-/// The curves of a capability over the loads of a sweep, or over the passes or cycles, and over the contacts of the last pass; none for a
-/// single contact.
+/// The curves of a capability over the loads of a sweep, or over the passes or cycles, and over the contacts
+/// of the last pass; none for a single contact.
 pub(crate) fn curves<C: Capability>(rows: &[C::Row], done: &[usize]) -> Vec<Curves> {
     let of_last: Vec<&C::Row> = of_last(rows).collect();
     let mut curves = Vec::new();
@@ -117,7 +119,8 @@ pub(crate) fn curves<C: Capability>(rows: &[C::Row], done: &[usize]) -> Vec<Curv
     curves
 }
 
-/// A curve over the passes of a motion or the cycles of a loading, with the mean over the contacts of each; none for a single one.
+/// A curve over the passes of a motion or the cycles of a loading, with the mean over the contacts of each;
+/// none for a single one.
 fn over_cycles<R: Row>(curve: &Curve<R>, rows: &[R], done: &[usize]) -> Option<Curves> {
     let after = |row: &R| match row.cycle() {
         Some([_, done]) => Some(done as f64),

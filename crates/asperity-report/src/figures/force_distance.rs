@@ -1,4 +1,5 @@
-//! The force–distance curve of bodies that are no hard walls to each other: the load over their distance, on the way together and apart.
+//! The force–distance curve of bodies that are no hard walls to each other: the load over their distance, on
+//! the way together and apart.
 
 use asperity_contact::motion::IncrementRecord;
 

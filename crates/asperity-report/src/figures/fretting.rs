@@ -33,7 +33,8 @@ fn cycles(increments: &[IncrementRecord]) -> Vec<Cycle<'_>> {
     found
 }
 
-/// The increments whose loop is shown: all without cycles, else those before the cycles, the first computed cycle and the last one.
+/// The increments whose loop is shown: all without cycles, else those before the cycles, the first computed
+/// cycle and the last one.
 pub(super) fn shown(increments: &[IncrementRecord]) -> Vec<IncrementRecord> {
     let cycles = cycles(increments);
     let [first, .., last] = &cycles[..] else { return increments.to_vec() };

@@ -102,8 +102,9 @@ fn near(a: [f64; 2], b: [f64; 2], all: &[[f64; 2]]) -> bool {
     (0..2).all(|axis| (a[axis] - b[axis]).abs() <= 0.02 * largest(axis))
 }
 
-/// The direction in which a contact is loaded: that of most of its force, signed towards +x, or towards +y where it lies
-/// along y. Rounding decides neither the axis nor the sign: a force to and fro along x has the direction +x.
+/// The direction in which a contact is loaded: that of most of its force, signed towards +x, or towards +y
+/// where it lies along y. Rounding decides neither the axis nor the sign: a force to and fro along x has the
+/// direction +x.
 pub(super) fn direction(increments: &[IncrementRecord]) -> [f64; 2] {
     let forces = || increments.iter().map(|i| [i.tangential_force_x, i.tangential_force_y]);
     // The principal axis of the forces, which has no sign yet.

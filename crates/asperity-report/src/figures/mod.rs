@@ -126,8 +126,8 @@ fn charts_over(x: &Axis, shown: Vec<(Axis, Vec<Series>)>) -> Charts {
     Charts { charts, columns: 2, aspect: 0.7 }
 }
 
-/// Draws the figures of `results` into its folder `figures` and returns their paths; an error of the kind `Interrupted`
-/// once `stop` says so.
+/// Draws the figures of `results` into its folder `figures` and returns their paths; an error of the kind
+/// `Interrupted` once `stop` says so.
 pub fn draw(
     results: &Results,
     wanted: &FigureOptions,
@@ -141,8 +141,8 @@ pub fn pictures(results: &Results, wanted: &FigureOptions) -> Result<Vec<(String
     gathered(results, wanted, &|| false)?.pictures()
 }
 
-/// Draws the figures of `results`, and some of them on a second paper. A witness sees the arrays of a static contact, which are read
-/// from `fields`.
+/// Draws the figures of `results`, and some of them on a second paper. A witness sees the arrays of a static
+/// contact, which are read from `fields`.
 pub fn gathered_with<'a>(
     results: &Results,
     wanted: &'a FigureOptions,

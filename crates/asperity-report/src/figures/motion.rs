@@ -22,10 +22,12 @@ use crate::error::Result;
 const SHEET: usize = 6;
 /// Passes whose roughness is computed for its figure, at most.
 const PARAMETERS: usize = 24;
-/// Share of the largest change of a height, up to which what is left of differences of heights is their rounding.
+/// Share of the largest change of a height, up to which what is left of differences of heights is their
+/// rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Where the colours of pressures end: at the largest, or where a few cells stand out, at a percentile, which is then said.
+/// Where the colours of pressures end: at the largest, or where a few cells stand out, at a percentile, which
+/// is then said.
 fn most_of(pressures: impl Iterator<Item = f64>) -> (f64, Option<&'static str>) {
     const SHARE: f64 = 0.98;
     let mut all: Vec<f64> = pressures.filter(|pressure| *pressure > 0.0).collect();
@@ -170,7 +172,8 @@ fn topographies<'a>(
     remarks.into_iter().fold(Maps::new(maps), Maps::remark)
 }
 
-/// What a law keeps of both bodies under the name of a state, 0 on one of which it keeps nothing; none if on neither.
+/// What a law keeps of both bodies under the name of a state, 0 on one of which it keeps nothing; none if on
+/// neither.
 fn of_bodies(fields: &Fields, state: &str, bodies: &[StoredArray; 2]) -> Result<Option<[StoredArray; 2]>> {
     let names = fields.names()?;
     let read = |body: usize| {
@@ -185,7 +188,8 @@ fn of_bodies(fields: &Fields, state: &str, bodies: &[StoredArray; 2]) -> Result<
     if known { Ok(Some([read(0)?, read(1)?])) } else { Ok(None) }
 }
 
-/// Changes of height on one scale about zero, of the bodies that have changed; of the lower one where none has.
+/// Changes of height on one scale about zero, of the bodies that have changed; of the lower one where none
+/// has.
 fn changes_of(changes: &[StoredArray]) -> Maps<'_> {
     let size =
         |stored: &StoredArray| stored.field.iter().fold(0.0, |most: f64, change| most.max(change.abs()));
@@ -301,8 +305,9 @@ fn pressures(
     Ok(())
 }
 
-/// The section at a position, where what its pressure displaces is known: the surfaces that met there are those after the
-/// pass before, unless they yielded from step to step, and shear displaces nothing normally, unless bodies are dissimilar.
+/// The section at a position, where what its pressure displaces is known: the surfaces that met there are
+/// those after the pass before, unless they yielded from step to step, and shear displaces nothing normally,
+/// unless bodies are dissimilar.
 fn section(results: &Results, pressure: &StoredArray, step: &StepRecord) -> Result<Option<Profile>> {
     let case = results.case()?;
     let bodies = response(&case.lower.material, &case.upper.material)?;

@@ -1,4 +1,5 @@
-//! The figures of bodies that flow below their surfaces: plastic strain and residual stress on a section, and the surface that is left.
+//! The figures of bodies that flow below their surfaces: plastic strain and residual stress on a section, and
+//! the surface that is left.
 
 use asperity_base::units::{Dimension, format};
 use asperity_base::{Field, Grid};
@@ -44,7 +45,8 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Result {
     Ok(())
 }
 
-/// What has flowed over the increments of a loading: the largest plastic strain and the plastic work so far; none where nothing has.
+/// What has flowed over the increments of a loading: the largest plastic strain and the plastic work so far;
+/// none where nothing has.
 pub(crate) fn of_increments(increments: &[IncrementRecord]) -> Option<Curves> {
     let steps: Vec<(f64, PlasticStepRecord)> =
         increments.iter().filter_map(|i| Some((i.increment as f64, i.plastic?))).collect();

@@ -8,7 +8,8 @@ use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 /// Classes of a histogram.
 const CLASSES: usize = 40;
 
-/// The shares of the contact area in classes of pressure, with the cap where there is one: of cells with a pressure.
+/// The shares of the contact area in classes of pressure, with the cap where there is one: of cells with a
+/// pressure.
 pub(crate) fn histogram<'a>(fields: impl IntoIterator<Item = &'a Field> + Clone, cap: &Cap) -> Charts {
     let values = || fields.clone().into_iter().flat_map(|field| field.iter().copied());
     distribution(|| values().filter(|p| p.abs() > 0.0), cap)

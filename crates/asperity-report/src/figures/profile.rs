@@ -1,4 +1,5 @@
-//! A section along x through the most loaded spot: both bodies as they are pressed together, the gap, the pressure.
+//! A section along x through the most loaded spot: both bodies as they are pressed together, the gap, the
+//! pressure.
 
 use asperity_base::{Field, Grid};
 use asperity_contact::kernel::response;
@@ -128,7 +129,8 @@ impl Profile {
     }
 }
 
-/// The cell of the largest pressure; of several, such as all at the hardness, that whose surroundings bear the most.
+/// The cell of the largest pressure; of several, such as all at the hardness, that whose surroundings bear
+/// the most.
 pub(super) fn most_loaded(pressure: &Field, touching: &Field) -> Option<[usize; 2]> {
     const AROUND: usize = 2;
     let cells = || pressure.iter().zip(touching).enumerate().filter(|(_, (_, touching))| **touching > 0.0);

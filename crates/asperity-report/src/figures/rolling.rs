@@ -1,12 +1,13 @@
-//! The figure of bodies that flow below their surfaces pass after pass: plastic work, how far the surface moves, strain.
+//! The figure of bodies that flow below their surfaces pass after pass: plastic work, how far the surface
+//! moves, strain.
 
 use asperity_contact::motion::{PassPlasticRecord, PassRecord};
 
 use super::{Curve, Curves, of_bodies};
 use crate::draw::{Axis, Chart, Charts, Series, Unit};
 
-/// Plastic work of each pass, shift of the surface against the depths since the beginning, largest plastic strain, and range of the
-/// residual displacement; none of bodies that do not flow.
+/// Plastic work of each pass, shift of the surface against the depths since the beginning, largest plastic
+/// strain, and range of the residual displacement; none of bodies that do not flow.
 pub(crate) fn curves(passes: &[PassRecord]) -> Option<Curves> {
     passes.first()?.plastic?;
     let over = |value: &dyn Fn(&PassPlasticRecord) -> f64| -> Curve {

@@ -11,7 +11,8 @@ use crate::draw::{Axis, Charts, Mark, Series, Unit};
 /// From such a ratio of the largest to the least distance on it is drawn by its logarithm.
 const DECADES: f64 = 100.0;
 
-/// What laws have done, roughness, contact area and temperature, each where there is any; none of bodies that do not run in.
+/// What laws have done, roughness, contact area and temperature, each where there is any; none of bodies that
+/// do not run in.
 pub(super) fn curves(passes: &[PassRecord], sq: [f64; 2]) -> Option<Curves> {
     let distances: Vec<f64> = passes.iter().filter_map(|p| Some(p.running?.distance)).collect();
     let (least, most) = (distances.first()?, distances.last()?);

@@ -81,7 +81,8 @@ impl StoredArray {
         self.contact_on(&touched(&self.field), cap)
     }
 
-    /// Where the cells of a pressure are elastic (1) and plastic (2), of those in contact: `touching` above 0.
+    /// Where the cells of a pressure are elastic (1) and plastic (2), of those in contact: `touching` above
+    /// 0.
     pub fn contact_on(&self, touching: &Field, cap: &Cap) -> Self {
         let class = |p: f64, touching: f64, cap: f64| match p {
             p if p >= cap * (1.0 - 1e-6) => 2.0,
@@ -100,8 +101,8 @@ impl StoredArray {
         })
     }
 
-    /// Values above 0 on the cells in contact under this pressure: the field `contact` of bodies that attract each other at rest, which
-    /// pull across the gap. Others have no pressure there.
+    /// Values above 0 on the cells in contact under this pressure: the field `contact` of bodies that attract
+    /// each other at rest, which pull across the gap. Others have no pressure there.
     pub fn touching<'a>(fields: &Fields, pressure: &'a Self) -> Result<Cow<'a, Field>> {
         if fields.names()?.iter().any(|name| name == "contact") {
             Ok(Cow::Owned(Self::read(fields, "contact")?.field))
@@ -116,7 +117,8 @@ pub(super) fn touched(pressure: &Field) -> Field {
     pressure.mapv(f64::abs)
 }
 
-/// Largest pressure at the end of the colours, as a multiple of the largest tension, which would be pale beside a much larger one.
+/// Largest pressure at the end of the colours, as a multiple of the largest tension, which would be pale
+/// beside a much larger one.
 const MAX_RATIO: f64 = 4.0;
 
 /// The colours of pressures over a range, which begins below 0 if there is tension.
@@ -124,7 +126,8 @@ pub(super) fn of_pressures(range: [f64; 2]) -> Colours {
     if range[0] < 0.0 { Colours::Signed } else { Colours::Pressure }
 }
 
-/// The ends of the colours of pressures with tension among them, the same above 0 as below; none without tension.
+/// The ends of the colours of pressures with tension among them, the same above 0 as below; none without
+/// tension.
 pub(super) fn range_with_tension(pressure: &Field) -> Option<[f64; 2]> {
     let finite = || pressure.iter().copied().filter(|p| p.is_finite());
     let [low, high] = [finite().fold(0.0, f64::min), finite().fold(0.0, f64::max)];
@@ -137,8 +140,8 @@ pub(crate) fn ends_with_tension([low, high]: [f64; 2]) -> Option<[f64; 2]> {
     (low < 0.0).then_some([-end, end])
 }
 
-/// A field whose first column is the lower body's `first`, on that body's grid; what does not face the upper body is
-/// undefined.
+/// A field whose first column is the lower body's `first`, on that body's grid; what does not face the upper
+/// body is undefined.
 pub fn in_frame_of(field: &Field, first: usize, grid: Grid) -> Field {
     let mut framed = Field::from_elem(grid.shape, f64::NAN);
     for (column, values) in field.outer_iter().enumerate() {

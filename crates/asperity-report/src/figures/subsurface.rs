@@ -56,12 +56,14 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Result {
     columns(fields)?.into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))
 }
 
-/// Returns a place x of the body on a section from and to these ends. A section that passes the end of its body counts on from there.
+/// Returns a place x of the body on a section from and to these ends. A section that passes the end of its
+/// body counts on from there.
 pub(crate) fn on_section(x: f64, [from, to]: [f64; 2]) -> f64 {
     if x < from { x + (to - from) } else { x }
 }
 
-/// Where the surface of the section bears: from and to along x, m. `begin` is its left end, `dx` the size of a cell.
+/// Where the surface of the section bears: from and to along x, m. `begin` is its left end, `dx` the size of
+/// a cell.
 pub(crate) fn contact(fields: &Fields, begin: f64, dx: f64) -> Result<Vec<[f64; 2]>> {
     /// Share of the largest pressure below which there is rounding alone.
     const ROUNDING: f64 = 1e-9;

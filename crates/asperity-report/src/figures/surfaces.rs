@@ -22,8 +22,8 @@ pub(crate) fn as_measured([lower, upper]: &[StoredArray; 2]) -> Result<[Topograp
     Ok([of(lower)?, of(upper)?.underside()])
 }
 
-/// Curves of both bodies at rest. The curves of a body take as much memory as several fields, so that those of the second are made
-/// after those of the first, which is dropped before.
+/// Curves of both bodies at rest. The curves of a body take as much memory as several fields, so that those
+/// of the second are made after those of the first, which is dropped before.
 pub(super) fn at_rest([lower, upper]: [StoredArray; 2]) -> Result<Vec<Curves>> {
     let of = |stored: StoredArray| Topography::new(stored.grid, stored.field);
     let charts = |body: Topography, title: &str| {

@@ -82,8 +82,8 @@ fn loads(points: &[SweepRecord]) -> [f64; 2] {
     [f64::min, f64::max].map(|pick| points.iter().map(|p| p.load).fold(f64::NAN, pick))
 }
 
-/// The force ratio over the creepage, along x and along y, under what all that slides bears by the law of friction, if one is given. `None` if there is no
-/// such ratio.
+/// The force ratio over the creepage, along x and along y, under what all that slides bears by the law of
+/// friction, if one is given. `None` if there is no such ratio.
 ///
 /// Over the creepage with its sign where that has one direction, over its amount elsewhere.
 fn traction(points: &[SweepRecord], friction: Option<&Friction>) -> Option<Curves> {

@@ -1,4 +1,5 @@
-//! What the user asked for, before the contact itself: the answers of capabilities, of the interface and of the laws of the bodies.
+//! What the user asked for, before the contact itself: the answers of capabilities, of the interface and of
+//! the laws of the bodies.
 
 use asperity_contact::each_capability;
 use asperity_contact::with::views::Answer;

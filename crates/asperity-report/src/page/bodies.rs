@@ -1,4 +1,5 @@
-//! The bodies: topographies before and after, their difference, profiles, parameters, material ratio, spectra.
+//! The bodies: topographies before and after, their difference, profiles, parameters, material ratio,
+//! spectra.
 
 use asperity_base::units::{Dimension, format};
 use asperity_contact::with;
@@ -173,7 +174,8 @@ fn as_it_is(found: &PageData, body: &str) -> Option<String> {
     }
 }
 
-/// What laws keep of a body at the end; what they took only where the surface before is not there to compare with.
+/// What laws keep of a body at the end; what they took only where the surface before is not there to compare
+/// with.
 fn kept(found: &mut PageData, body: &str) -> Vec<Value> {
     let last = found.passes.len();
     let fields = match (found.moves(), last) {

@@ -299,7 +299,8 @@ fn of_step(step: &StepRecord) -> String {
     text
 }
 
-/// Change of height of both bodies before a pass, material upwards; none before the first, and of a counter-body that is new in each.
+/// Change of height of both bodies before a pass, material upwards; none before the first, and of a
+/// counter-body that is new in each.
 fn changes_before(found: &PageData, pass: usize) -> asperity_base::Result<Option<[QuantisedField; 2]>> {
     if pass == 1 || figures::has_new_upper(&found.case, pass) {
         return Ok(None);
@@ -316,7 +317,8 @@ fn point_of(point: usize, points: usize) -> String {
     format!("point {point} of {points}")
 }
 
-/// The points of a sweep that are kept, and its last one, whose contact the answers describe unless another one ranks above.
+/// The points of a sweep that are kept, and its last one, whose contact the answers describe unless another
+/// one ranks above.
 fn of_sweep(found: &mut PageData) -> Vec<Frame> {
     let mut frames = Vec::new();
     let points: Vec<SweepRecord> = found.points.clone();
@@ -377,7 +379,8 @@ fn highest(ranks: impl Iterator<Item = Option<f64>>) -> Option<usize> {
     ranked.max_by(|one, other| one.1.total_cmp(&other.1)).map(|(index, _)| index)
 }
 
-/// The increments that are kept of bodies that are no hard walls to each other, each with its place on the force–distance curve; `None` if none is.
+/// The increments that are kept of bodies that are no hard walls to each other, each with its place on the
+/// force–distance curve; `None` if none is.
 fn of_increments(found: &mut PageData) -> Option<Vec<Frame>> {
     (!found.case.interface.is_empty()).then_some(())?;
     let increments = found.increments.clone();

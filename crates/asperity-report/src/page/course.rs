@@ -34,7 +34,8 @@ pub(super) fn loading(found: &PageData, charts: &mut Vec<Value>) -> Option<Strin
     Some(curves::first(curves, charts)).filter(|html| !html.is_empty())
 }
 
-/// The section of bodies that slide at one speed after another: the drag and the contact over the speed; none of others.
+/// The section of bodies that slide at one speed after another: the drag and the contact over the speed; none
+/// of others.
 pub(super) fn over_speed(found: &PageData, charts: &mut Vec<Value>) -> Option<String> {
     found.case.steady.as_ref().filter(|_| found.points.len() > 1)?;
     Some(curves::first(figures::of_sweep(&found.points, &found.case), charts)).filter(|html| !html.is_empty())
@@ -94,7 +95,8 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     Some(html).filter(|html| html.len() > without_curves)
 }
 
-/// Whether the force of friction is the same share of the load at each position, so that its curve is that of the load.
+/// Whether the force of friction is the same share of the load at each position, so that its curve is that of
+/// the load.
 fn friction_follows_load(steps: &[StepRecord]) -> bool {
     let loaded = steps.iter().filter(|step| step.load > 0.0);
     let mut ratios = loaded.map(|step| step.tangential_force.abs() / step.load);

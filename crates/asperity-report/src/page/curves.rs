@@ -13,7 +13,8 @@ pub(super) fn first(curves: Vec<Curves>, data: &mut Vec<Value>) -> String {
     html(curves, data).replace("<div class=\"charts\">", "<div class=\"charts first\">")
 }
 
-/// HTML with a place for each chart that shows something, whose numbers go to `data`; nothing where none does.
+/// HTML with a place for each chart that shows something, whose numbers go to `data`; nothing where none
+/// does.
 pub(super) fn html(curves: Vec<Curves>, data: &mut Vec<Value>) -> String {
     let mut html = String::new();
     for Curves { name, title, caption, charts } in curves {
@@ -106,7 +107,8 @@ fn axis(axis: &Axis, largest: f64) -> Value {
     value
 }
 
-/// The multiple that suits numbers up to `largest`: its size in SI, its symbol, and that of the SI unit itself.
+/// The multiple that suits numbers up to `largest`: its size in SI, its symbol, and that of the SI unit
+/// itself.
 pub(super) fn unit(unit: Unit, largest: f64) -> Value {
     let (factor, symbol) = unit.shown(largest);
     json!({ "factor": factor, "symbol": symbol, "si": unit.base() })

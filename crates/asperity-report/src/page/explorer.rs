@@ -37,8 +37,8 @@ impl Quantity {
     }
 }
 
-/// The quantities of a study: the answers, then the columns that are `shown` in their order, which say something and do not repeat an axis,
-/// and the contact fraction.
+/// The quantities of a study: the answers, then the columns that are `shown` in their order, which say
+/// something and do not repeat an axis, and the contact fraction.
 pub(super) fn quantities(table: &Table, shown: &[&str]) -> Vec<Quantity> {
     let of_column = |name: &str| -> Option<Vec<f64>> {
         let at = table.columns().iter().position(|column| column.name == name)?;

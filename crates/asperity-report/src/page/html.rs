@@ -54,7 +54,8 @@ pub(super) fn minus(text: &str) -> String {
     printed
 }
 
-/// A number with its value, SI, for programs that read the page; `key` says where it stands in `summary.json`.
+/// A number with its value, SI, for programs that read the page; `key` says where it stands in
+/// `summary.json`.
 pub(super) fn number(key: &str, value: &serde_json::Value, text: &str) -> String {
     match value {
         serde_json::Value::Number(value) => {

@@ -1,7 +1,7 @@
 //! A results directory as one HTML page, made from what it holds and from nothing else.
 //!
-//! A section is HTML, which reads and prints by itself, and data, which the page's own programs draw: maps in levels
-//! and curves, those of the figures. Nothing on the page asks for anything from outside.
+//! A section is HTML, which reads and prints by itself, and data, which the page's own programs draw: maps in
+//! levels and curves, those of the figures. Nothing on the page asks for anything from outside.
 
 mod answers;
 mod below;
@@ -57,10 +57,12 @@ pub use witness::{Seen, gathered};
 /// Name of the page in a results directory.
 pub const FILE: &str = "report.html";
 
-/// Writes the page of the results in `directory`, finished or under way, to `out`, or into the directory, and gives its path.
+/// Writes the page of the results in `directory`, finished or under way, to `out`, or into the directory, and
+/// gives its path.
 ///
 /// # Errors
-/// [`asperity_base::Error::NoResults`] and [`asperity_base::Error::File`]; what else of the results cannot be read is left out and named.
+/// [`asperity_base::Error::NoResults`] and [`asperity_base::Error::File`]; what else of the results cannot be
+/// read is left out and named.
 pub fn make(directory: &Path, out: Option<&Path>) -> asperity_base::Result<PathBuf> {
     let results = Results::open(directory)?;
     let path = out.map_or_else(|| of(&results), Path::to_owned);
@@ -87,8 +89,8 @@ pub fn of(results: &Results) -> PathBuf {
     results.directory().join(FILE)
 }
 
-/// Writes the page of `results` to `path`, and gives what could not be read and is not on it; where that fails the one that is there
-/// stays.
+/// Writes the page of `results` to `path`, and gives what could not be read and is not on it; where that
+/// fails the one that is there stays.
 pub fn write(results: &Results, path: &Path) -> asperity_base::Result<Vec<String>> {
     write_with(results, witness::seen(results), path)
 }
@@ -143,7 +145,8 @@ fn document(found: &PageData, sections: &[Section], data: &Value) -> String {
     framed(&head::title(found), &head::html(found), &sections, data)
 }
 
-/// A page of a title, what stands above all sections, those sections that there are, and the data for its programs.
+/// A page of a title, what stands above all sections, those sections that there are, and the data for its
+/// programs.
 fn framed(title: &str, head: &str, sections: &[Section], data: &Value) -> String {
     let title = html::escaped(title);
     let there = || sections.iter().filter_map(|(id, title, html)| Some((id, title, html.as_ref()?)));

@@ -19,7 +19,8 @@ const MOST: usize = 6;
 pub(super) struct Overview<'a> {
     axes: Vec<(usize, &'a Axis)>,
     quantities: Vec<(&'a Quantity, Measure)>,
-    /// For each combination of values, a row that has them, the spread of each quantity, and the number of cases.
+    /// For each combination of values, a row that has them, the spread of each quantity, and the number of
+    /// cases.
     rows: Vec<(usize, Vec<Option<Spread>>, usize)>,
     table: &'a Table,
 }
@@ -44,7 +45,8 @@ impl<'a> Overview<'a> {
         (!quantities.is_empty() && !rows.is_empty()).then_some(Self { axes, quantities, rows, table })
     }
 
-    /// The heads of the columns, each with its unit: the axes, the quantities, and the number of cases if there are several.
+    /// The heads of the columns, each with its unit: the axes, the quantities, and the number of cases if
+    /// there are several.
     fn heads(&self) -> Vec<[String; 2]> {
         let axes = self.axes.iter().map(|(_, axis)| [words::of_key(axis.key()), String::new()]);
         let quantities = self.quantities.iter();
@@ -198,7 +200,8 @@ impl<'a> Overview<'a> {
     }
 }
 
-/// Splits a text into lines of at most so many characters, if its words allow it. What follows a comma begins a line.
+/// Splits a text into lines of at most so many characters, if its words allow it. What follows a comma begins
+/// a line.
 fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for part in text.split_inclusive(',') {

@@ -39,8 +39,8 @@ enum Code {
     Positive,
     /// One byte: 0 for what is not above 0, 1 to 255 in equal ratios from the lowest to the highest value.
     Logarithmic,
-    /// Two bytes: 0 to 65534 evenly from the lowest to the highest value, 65535 undefined. Differences along y; first all
-    /// high, then all low bytes.
+    /// Two bytes: 0 to 65534 evenly from the lowest to the highest value, 65535 undefined. Differences along
+    /// y; first all high, then all low bytes.
     Even,
     /// One byte: the number of a class; 255 undefined.
     Class,
@@ -176,7 +176,8 @@ pub(super) fn block(field: &Field) -> usize {
     field.nrows().max(field.ncols()).div_ceil(MAX_SIDE).max(1)
 }
 
-/// At most [`MAX_SIDE`] cells along a side, each a block of so many along both axes; the last block may be of fewer.
+/// At most [`MAX_SIDE`] cells along a side, each a block of so many along both axes; the last block may be of
+/// fewer.
 fn reduced(field: &Field, pitch: [f64; 2], reduction: Reduction) -> (Field, [f64; 2]) {
     let block = block(field);
     if block == 1 {

@@ -1,4 +1,5 @@
-//! Plastic flow below the surfaces: strain and residual stress on a section, what it leaves of the surface, its course.
+//! Plastic flow below the surfaces: strain and residual stress on a section, what it leaves of the surface,
+//! its course.
 
 use asperity_study::Outcome;
 use asperity_study::io::fs;

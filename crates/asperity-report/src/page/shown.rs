@@ -5,7 +5,8 @@ use asperity_base::Grid;
 use super::packed::{self, Levels, QuantisedField};
 use crate::figures::{HeightRange, StoredArray};
 
-/// Bodies of more cells have no parameters on the page: those of hills and of the autocorrelation would take minutes.
+/// Bodies of more cells have no parameters on the page: those of hills and of the autocorrelation would take
+/// minutes.
 pub(super) const MAX_CELLS: usize = 1 << 18;
 
 /// Heights of a body as they are shown.

@@ -1,4 +1,5 @@
-//! The page of a study: its answers, a chart whose quantity, axis and colours are chosen on the page, and a row per case.
+//! The page of a study: its answers, a chart whose quantity, axis and colours are chosen on the page, and a
+//! row per case.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -51,13 +52,15 @@ const SHOWN: [&str; 28] = [
     "residual",
 ];
 
-/// What a study answers, as a table for a terminal: mean and deviation over the seeds for each combination of values; empty without numbers.
+/// What a study answers, as a table for a terminal: mean and deviation over the seeds for each combination of
+/// values; empty without numbers.
 pub fn answers_of_study(table: &Table) -> String {
     let quantities = explorer::quantities(table, &SHOWN);
     Overview::of(table, &quantities).map_or(String::new(), |overview| overview.text())
 }
 
-/// Writes the page of a study whose cases are in `table` to `path`; where that fails the one that is there stays.
+/// Writes the page of a study whose cases are in `table` to `path`; where that fails the one that is there
+/// stays.
 pub fn write_study(study: &Study, table: &Table, path: &Path) -> asperity_base::Result<()> {
     let directory = path.parent().unwrap_or(Path::new(""));
     io::replace(path, page(study, table, directory).as_bytes())
@@ -131,7 +134,8 @@ fn about(study: &Study, table: &Table) -> String {
     facts(axes.chain(rest))
 }
 
-/// A row per case: its values, its main numbers, each column in one unit. The number of a case leads to its page where that was made.
+/// A row per case: its values, its main numbers, each column in one unit. The number of a case leads to its
+/// page where that was made.
 fn rows(table: &Table, quantities: &[Quantity], directory: &Path) -> String {
     let columns: Vec<Measure> = quantities.iter().map(Quantity::measure).collect();
     let axes: Vec<Option<Measure>> = table.axes().iter().map(measure).collect();
@@ -194,7 +198,8 @@ fn rows(table: &Table, quantities: &[Quantity], directory: &Path) -> String {
     html
 }
 
-/// How the numbers of an axis are shown, in the unit that suits the largest; none for seeds and for what is no number.
+/// How the numbers of an axis are shown, in the unit that suits the largest; none for seeds and for what is
+/// no number.
 fn measure(axis: &Axis) -> Option<Measure> {
     let numbers = axis.numbers().filter(|_| !axis.is_seed())?;
     Some(Measure::of_dimension(axis.dimension(), largest(numbers)))

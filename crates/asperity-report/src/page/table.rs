@@ -58,8 +58,8 @@ impl Table {
         self.rows.len()
     }
 
-    /// HTML for the table of that name in a `file`. With a `key` each number has its value and says where it stands in
-    /// `summary.json`. Of many rows some, evenly chosen. Columns of zeros are not seen.
+    /// HTML for the table of that name in a `file`. With a `key` each number has its value and says where it
+    /// stands in `summary.json`. Of many rows some, evenly chosen. Columns of zeros are not seen.
     pub(super) fn html(&self, name: &str, file: &str, key: Option<&str>) -> String {
         let shown = evenly(self.rows.len(), MAX_ROWS);
         let all = 0..self.columns.len();

@@ -160,7 +160,8 @@ fn bodies_that_attract_each_other_have_a_section_with_their_curve() {
     assert!(!Computed::of(AT_REST).page().contains("id=\"adhesion\""));
 }
 
-/// A sweep opens on its last point, to which the numbers beside the map belong, and one of speeds on that of the largest drag, which is kept.
+/// A sweep opens on its last point, to which the numbers beside the map belong, and one of speeds on that of
+/// the largest drag, which is kept.
 #[test]
 fn a_sweep_opens_on_the_point_that_its_answers_describe() {
     let loads = AT_REST.replace("load = 5e-3", "loads = { from = 1e-3, to = 5e-3, points = 5 }");
@@ -338,7 +339,8 @@ fn what_flows_below_a_surface_is_shown_under_the_load_and_without_it() {
     let planes = data["planes"].as_array().unwrap();
     let files: Vec<&str> = planes.iter().map(|plane| plane["file"].as_str().unwrap()).collect();
     assert_eq!(files, ["plastic_strain_lower", "residual_stress_lower", "residual_surface_lower"]);
-    // The section is the one through the largest strain; the dent is as deep as the summary says, but for its rim.
+    // The section is the one through the largest strain; the dent is as deep as the summary says, but for its
+    // rim.
     assert_eq!(planes[0]["map"]["high"], summary["static"]["max_plastic_strain"]);
     let [low, high] = ["low", "high"].map(|end| planes[2]["map"][end].as_f64().unwrap());
     let range = summary["static"]["residual_residual_displacement"].as_f64().unwrap();

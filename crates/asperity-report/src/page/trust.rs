@@ -1,4 +1,5 @@
-//! Why one may trust the numbers, and what they come from: residuals, the load reached, cost, all numbers, the case, files.
+//! Why one may trust the numbers, and what they come from: residuals, the load reached, cost, all numbers,
+//! the case, files.
 
 use std::path::Path;
 

@@ -57,8 +57,8 @@ impl Witness for Seen {
     }
 }
 
-/// Draws the figures of `results`, and makes the parts of the page that show the same arrays. Only large static contacts of hard walls
-/// without friction have such parts. Other pages are made from their files.
+/// Draws the figures of `results`, and makes the parts of the page that show the same arrays. Only large
+/// static contacts of hard walls without friction have such parts. Other pages are made from their files.
 pub fn gathered<'a>(
     results: &Results,
     wanted: &'a FigureOptions,

@@ -3,8 +3,8 @@
 /// Longest message that is shown in full, in characters: a few lines of a terminal.
 pub const MAX_CHARACTERS: usize = 600;
 
-/// Limits a message to one paragraph of bounded length; a longer message keeps its beginning and its end. Control
-/// characters are escaped.
+/// Limits a message to one paragraph of bounded length; a longer message keeps its beginning and its end.
+/// Control characters are escaped.
 pub fn clipped(text: &str) -> String {
     let shown = |text: &str| -> String {
         let escaped = |c: char| -> String {

@@ -40,7 +40,8 @@ pub struct Body {
     /// Thermal constants of the body; unknown if absent.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub thermal: Option<Thermal>,
-    /// Thermal conductivity, W/(m K), of a body that has no other thermal constants, > 0 or infinite; unknown if absent.
+    /// Thermal conductivity, W/(m K), of a body that has no other thermal constants, > 0 or infinite; unknown
+    /// if absent.
     #[serde(serialize_with = "known_or_inf", skip_serializing_if = "Option::is_none")]
     pub conductivity: Option<f64>,
     /// Electrical resistivity, Ω m, > 0; unknown if absent.
@@ -51,9 +52,9 @@ pub struct Body {
     pub laws: BodyLaws,
     /// The body's surface.
     pub topography: TopographySpec,
-    /// How the heights are mounted: always [`Mount::AsIs`] for the lower body. `None` leaves the decision to the file: as
-    /// they are if it describes an underside, see [`Scan::is_underside`](asperity_surface::Scan::is_underside), else turned
-    /// over.
+    /// How the heights are mounted: always [`Mount::AsIs`] for the lower body. `None` leaves the decision to
+    /// the file: as they are if it describes an underside, see
+    /// [`Scan::is_underside`](asperity_surface::Scan::is_underside), else turned over.
     #[serde(skip)]
     pub mount: Option<Mount>,
 }
@@ -62,11 +63,12 @@ pub struct Body {
 #[derive(Table, Debug, Clone, PartialEq)]
 #[table("lower", "upper")]
 pub(super) struct BodyKeys {
-    /// Material by name, see [materials](#materials): its `young`, `poisson` and `hardness`, and the constants of heat and current where the
-    /// case uses them; keys given beside it replace them.
+    /// Material by name, see [materials](#materials): its `young`, `poisson` and `hardness`, and the
+    /// constants of heat and current where the case uses them; keys given beside it replace them.
     #[key(choice, absent = "none", example = "\"steel\"")]
     material: Option<&'static NamedMaterial>,
-    /// Young's modulus; for a coated body, the modulus below the coating; at most one uncoated body may be rigid.
+    /// Young's modulus; for a coated body, the modulus below the coating; at most one uncoated body may be
+    /// rigid.
     #[key(
         quantity = Pressure,
         range = AboveZeroOrInfinite("a rigid body"),
@@ -103,7 +105,8 @@ pub(super) struct BodyKeys {
     /// Plastic deformation below the surface, see [below](#plasticity).
     #[key(table, absent = "elastic")]
     plasticity: Option<Yielding>,
-    /// Thermal conductivity, for the flash temperature and for heat that passes a contact; give it for both bodies.
+    /// Thermal conductivity, for the flash temperature and for heat that passes a contact; give it for both
+    /// bodies.
     #[key(
         quantity = Conductivity,
         range = AboveZeroOrInfinite("no resistance, only where heat passes a contact"),
@@ -153,7 +156,8 @@ pub(super) struct UpperKeys {
 /// Conversion of the heights of a body to those of the case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mount {
-    /// Measured material side up, then turned over about y: mirrored in x, with the sign of the heights changed.
+    /// Measured material side up, then turned over about y: mirrored in x, with the sign of the heights
+    /// changed.
     TurnedOver,
     /// The heights are already those of the case.
     AsIs,
@@ -166,7 +170,8 @@ choice!(Mount: "turned-over" => TurnedOver, "as-is" => AsIs);
 pub(super) struct Used {
     /// Whether bodies are heated by friction as they slide.
     pub(super) flash: bool,
-    /// Whether heat or current passes the contact, so that the conductivity may be given without the other constants of heat.
+    /// Whether heat or current passes the contact, so that the conductivity may be given without the other
+    /// constants of heat.
     pub(super) conduction: bool,
 }
 
@@ -181,8 +186,8 @@ impl UpperKeys {
 }
 
 impl BodyKeys {
-    /// Returns the body, as a lower one, from its table `source`, of which a case uses some constants of a named material. Files are relative to
-    /// the `folder` of the case.
+    /// Returns the body, as a lower one, from its table `source`, of which a case uses some constants of a
+    /// named material. Files are relative to the `folder` of the case.
     pub(super) fn body(&self, source: &dyn table::Source, folder: &Path, used: Used) -> Result<Body> {
         let named = self.material;
         let young = elastic_constant(source, "young", self.young, named.map(|named| named.young))?;
@@ -227,7 +232,8 @@ impl BodyKeys {
         })
     }
 
-    /// Returns the thermal constants of a body, all of them or none. Those of a named material count where they are used.
+    /// Returns the thermal constants of a body, all of them or none. Those of a named material count where
+    /// they are used.
     fn thermal(&self, source: &dyn table::Source, used: Used) -> Result<Option<Thermal>> {
         let named = self.material;
         let of_material = |constant: fn(&NamedMaterial) -> Option<f64>| named.and_then(constant);
@@ -254,7 +260,8 @@ impl BodyKeys {
         given[usize::from(used.conduction)..].iter().any(Option::is_some)
     }
 
-    /// Leaves out the heat of a body that only its material knows, if the other body has none: friction heats both or neither.
+    /// Leaves out the heat of a body that only its material knows, if the other body has none: friction heats
+    /// both or neither.
     pub(super) fn heat_together(&self, body: &mut Body, other: &Body, used: Used) {
         if other.thermal.is_none() && !self.gives_heat(used) {
             let thermal = body.thermal.take();

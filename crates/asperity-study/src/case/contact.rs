@@ -19,7 +19,8 @@ pub struct Contact {
     #[key(part)]
     #[serde(flatten)]
     pub load: ContactLoad,
-    /// Continuation beyond the edges: `"free"`, an unloaded half-space; `"periodic"`, copies of the contact; one of each: a line contact.
+    /// Continuation beyond the edges: `"free"`, an unloaded half-space; `"periodic"`, copies of the contact;
+    /// one of each: a line contact.
     #[key(
         special = boundary,
         form = "`\"free\"`, `\"periodic\"`, or one word for each axis: `[\"free\", \"periodic\"]`",
@@ -28,16 +29,16 @@ pub struct Contact {
         example = "[\"free\", \"periodic\"]"
     )]
     pub boundary: Boundary,
-    /// `"common"` resamples both prepared surfaces to the coarser pitch and crops them about their centres to a common size; `"as-prepared"`
-    /// requires surfaces that fit.
+    /// `"common"` resamples both prepared surfaces to the coarser pitch and crops them about their centres to
+    /// a common size; `"as-prepared"` requires surfaces that fit.
     #[key(choice, default = GridMatch::AsPrepared, example = "\"common\"")]
     #[serde(skip_serializing_if = "is_default")]
     pub grid: GridMatch,
     /// Solver; all methods give the same result.
     #[key(choice, default = Method::Auto, example = "\"direct\"")]
     pub method: Method,
-    /// Device that solves the contact: `"cpu"`; `"cuda"`, a GPU of NVIDIA; `"host"`, the solver of the GPU in plain loops on the processor, for
-    /// comparison.
+    /// Device that solves the contact: `"cpu"`; `"cuda"`, a GPU of NVIDIA; `"host"`, the solver of the GPU in
+    /// plain loops on the processor, for comparison.
     #[key(choice, default = Device::Cpu, example = "\"cuda\"")]
     #[serde(skip_serializing_if = "is_default")]
     pub device: Device,

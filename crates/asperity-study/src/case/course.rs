@@ -79,8 +79,8 @@ impl Course {
 impl Case {
     /// Returns the course on this apparent area, on which a mean pressure acts.
     ///
-    /// Without friction the first stage of a loading is a single increment, except for elasto-plastic bodies. The first loading of a
-    /// contact does not depend on its steps.
+    /// Without friction the first stage of a loading is a single increment, except for elasto-plastic bodies.
+    /// The first loading of a contact does not depend on its steps.
     pub fn course(&self, apparent_area: SquareMetre) -> Course {
         if let Some(motion) = self.motion(apparent_area) {
             return Course::Passes(motion);

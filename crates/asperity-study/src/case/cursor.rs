@@ -62,7 +62,8 @@ impl<'a> Table<'a> {
         self.document.error(&path, self.span.clone(), format!("missing table [{path}]"), None)
     }
 
-    /// Returns an error unless every key is among `known`. `elsewhere` explains a key that belongs to another table.
+    /// Returns an error unless every key is among `known`. `elsewhere` explains a key that belongs to another
+    /// table.
     pub(crate) fn known(
         &self,
         known: &[&str],
@@ -233,7 +234,8 @@ impl<'a> Entry<'a> {
         self.number_or_infinite(|value| value.is_finite() && good(value), expected)
     }
 
-    /// Returns a number with a magnitude within `range`, for a constant whose unit has no name; 0 only if `zero`.
+    /// Returns a number with a magnitude within `range`, for a constant whose unit has no name; 0 only if
+    /// `zero`.
     pub(super) fn number_within(&self, range: units::Range, zero: bool) -> Result<f64> {
         let expected = format!("{}a magnitude of {range}", if zero { "0, or " } else { "" });
         let value = self.plain().unwrap_or_else(|| Err(self.wrong_type(&expected)))?;
@@ -289,7 +291,8 @@ impl<'a> Entry<'a> {
         if dimension.range().holds(value) { Ok(value) } else { Err(self.beyond(dimension.range())) }
     }
 
-    /// Returns a finite quantity with a magnitude within `range`; 0 only if `zero`. The hint contains the `example`.
+    /// Returns a finite quantity with a magnitude within `range`; 0 only if `zero`. The hint contains the
+    /// `example`.
     pub(super) fn within(
         &self,
         dimension: Dimension,

@@ -22,13 +22,13 @@ pub struct FrictionSpec {
     #[key(part)]
     #[serde(flatten)]
     pub prescribed: Option<InPlane>,
-    /// Rolling only, in 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity; its axis is z through the
-    /// middle of the grid, and a positive spin turns from +x towards +y.
+    /// Rolling only, in 1/m: angular velocity of the upper body relative to the lower one, over the rolling
+    /// velocity; its axis is z through the middle of the grid, and a positive spin turns from +x towards +y.
     #[key(number = "a number, in 1/m", default = 0.0, written = "0", example = "25")]
     #[serde(skip_serializing_if = "is_zero")]
     pub spin: f64,
-    /// Equal steps in which load and tangential load grow together from 0: a loading path, not a resolution. To press first and push then, push in a
-    /// \[\[history\]\].
+    /// Equal steps in which load and tangential load grow together from 0: a loading path, not a resolution.
+    /// To press first and push then, push in a \[\[history\]\].
     ///
     /// 1 for a rolling contact and a motion.
     #[key(count = 1, default = 1, example = "20")]
@@ -52,7 +52,8 @@ pub enum InPlane {
     /// A unit vector.
     #[key(special = direction, form = "`[x, y]` of any length", example = "[1, 0]")]
     Sliding([f64; 2]),
-    /// Steady rolling along x: velocity of the upper body relative to the lower one, over the rolling velocity.
+    /// Steady rolling along x: velocity of the upper body relative to the lower one, over the rolling
+    /// velocity.
     #[key(number = "a finite number", vector, example = "0.001")]
     Creepage([f64; 2]),
     /// Several creepages, one after the other.

@@ -11,8 +11,8 @@ const LAYERS: &str = "plus";
 /// The tables of the bodies, whose elastic constants a material may give.
 const BODIES: [&str; 2] = ["lower", "upper"];
 
-/// Returns the JSON schema (draft 7) of a case file. It has each key with its meaning, accepted values, default and example. Combinations of
-/// keys are left to [`Case::parse`](super::Case::parse).
+/// Returns the JSON schema (draft 7) of a case file. It has each key with its meaning, accepted values,
+/// default and example. Combinations of keys are left to [`Case::parse`](super::Case::parse).
 ///
 /// ```
 /// let schema = asperity_study::json_schema();
@@ -165,7 +165,8 @@ fn number(bounds: &Bounds) -> Value {
     }
 }
 
-/// Returns the value of a text in a declaration; `None` for infinity, which JSON does not have, and for an empty text.
+/// Returns the value of a text in a declaration; `None` for infinity, which JSON does not have, and for an
+/// empty text.
 fn of_text(text: &str) -> Option<Value> {
     let mut table: toml::Table = format!("value = {text}").parse().ok()?;
     let value = table.remove("value")?;

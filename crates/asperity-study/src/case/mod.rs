@@ -1,7 +1,7 @@
 //! Case files: one TOML file describes the bodies, their loading and their motion.
 //!
-//! Everything that the file alone determines is checked, and each mistake is reported at its place. A [`Case`] is in SI and
-//! serialises under the keys of the file, so that a summary contains the computed case.
+//! Everything that the file alone determines is checked, and each mistake is reported at its place. A
+//! [`Case`] is in SI and serialises under the keys of the file, so that a summary contains the computed case.
 
 mod body;
 mod contact;
@@ -76,7 +76,8 @@ pub struct Case {
     /// Friction of the bodies; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionSpec>,
-    /// Later stages of the loading of a static contact. The first is prescribed by `contact` and, if given, `friction`.
+    /// Later stages of the loading of a static contact. The first is prescribed by `contact` and, if given,
+    /// `friction`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub history: Vec<StageSpec>,
     /// Motion of the bodies; `None` for a static contact.
@@ -116,8 +117,8 @@ pub struct Case {
 pub(crate) const MAX_CASE_BYTES: u64 = 4 << 20;
 
 impl Case {
-    /// Interval of the increments of a loading whose fields are kept, 0 for none: those of bodies that are no hard walls to each other,
-    /// whose way together and apart is the result.
+    /// Interval of the increments of a loading whose fields are kept, 0 for none: those of bodies that are no
+    /// hard walls to each other, whose way together and apart is the result.
     pub(crate) fn increments_kept_every(&self) -> usize {
         if !self.interface.is_empty() && !self.history.is_empty() { self.output.pressure_every } else { 0 }
     }
@@ -195,7 +196,8 @@ impl Case {
         parse::case(text, file, folder, false)
     }
 
-    /// [`parse`](Self::parse) for a motion whose passes custom laws may change, by [`SolvedPass::remove`](asperity_contact::motion::SolvedPass::remove).
+    /// [`parse`](Self::parse) for a motion whose passes custom laws may change, by
+    /// [`SolvedPass::remove`](asperity_contact::motion::SolvedPass::remove).
     ///
     /// # Errors
     /// The errors of [`parse`](Self::parse).
@@ -213,8 +215,8 @@ impl Case {
         Ok(self)
     }
 
-    /// Creates an error that appears only when the case is used, at the place of a dotted `key` (`upper.topography.file`),
-    /// or of the table that would contain it.
+    /// Creates an error that appears only when the case is used, at the place of a dotted `key`
+    /// (`upper.topography.file`), or of the table that would contain it.
     pub fn error_at(&self, key: &str, message: impl Into<String>, hint: Option<String>) -> Error {
         self.document.error_at(key, message, hint)
     }
@@ -229,7 +231,8 @@ impl Case {
         self.document.written(self.document.place(key))
     }
 
-    /// Returns the motion with its load. A mean pressure acts on `apparent_area`, the area of all cells at full overlap.
+    /// Returns the motion with its load. A mean pressure acts on `apparent_area`, the area of all cells at
+    /// full overlap.
     pub fn motion(&self, apparent_area: SquareMetre) -> Option<Motion> {
         Some(Motion {
             friction: self.friction.as_ref().map(|friction| friction.law),

@@ -14,13 +14,15 @@ use asperity_contact::motion::{LoadControl, Motion, OffsetY, Path, PlasticUpdate
 use asperity_contact::solver::Control;
 use asperity_derive::Table;
 
-/// A motion without its load, which is in [`Contact`](super::Contact); see [`Case::motion`](super::Case::motion).
+/// A motion without its load, which is in [`Contact`](super::Contact); see
+/// [`Case::motion`](super::Case::motion).
 #[derive(Table, Debug, Clone, Copy, PartialEq, Serialize)]
 #[table("motion", check = moves)]
 #[non_exhaustive]
 pub struct MotionSpec {
-    /// `"overlap"`: the upper body enters on the left, passes over the lower one and leaves on the right; only the overlap is solved.
-    /// `"shift"`: both bodies are shifted cyclically and the full contact is solved.
+    /// `"overlap"`: the upper body enters on the left, passes over the lower one and leaves on the right;
+    /// only the overlap is solved. `"shift"`: both bodies are shifted cyclically and the full contact is
+    /// solved.
     #[key(choice, default = StrategyKind::Overlap, example = "\"shift\"")]
     pub strategy: StrategyKind,
     /// Number of passes.
@@ -29,8 +31,8 @@ pub struct MotionSpec {
     /// Cells from one position to the next.
     #[key(count = 1, default = 1, example = "4")]
     pub stride: usize,
-    /// Prescribed quantity. `"pass-load"`: the mean load of a pass, with one approach for the pass; `"step-load"`: the load at each position;
-    /// `"approach"`: the approach at all positions.
+    /// Prescribed quantity. `"pass-load"`: the mean load of a pass, with one approach for the pass;
+    /// `"step-load"`: the load at each position; `"approach"`: the approach at all positions.
     ///
     /// Always there in a case.
     #[key(
@@ -39,7 +41,8 @@ pub struct MotionSpec {
         example = "\"step-load\""
     )]
     pub control: Option<ControlKind>,
-    /// When plastic deformation changes the surfaces: after each pass, or at every step; for elasto-plastic bodies always `"step"`.
+    /// When plastic deformation changes the surfaces: after each pass, or at every step; for elasto-plastic
+    /// bodies always `"step"`.
     #[key(choice, default = PlasticUpdate::Pass, example = "\"step\"")]
     pub plastic_update: PlasticUpdate,
     /// Relative tolerance of the mean load of a pass.
@@ -51,7 +54,8 @@ pub struct MotionSpec {
         example = "1e-6"
     )]
     pub load_tolerance: f64,
-    /// `"shift"` only: speed of the lower surface along x; apart from times, only the ratio of the speeds matters.
+    /// `"shift"` only: speed of the lower surface along x; apart from times, only the ratio of the speeds
+    /// matters.
     ///
     /// Always there in a shift.
     #[key(quantity = Speed, written = "0", example = "\"0.3 m/s\"", exists = exists::SPEED, beside = [beside::SPEED])]
@@ -63,7 +67,8 @@ pub struct MotionSpec {
     #[key(quantity = Speed, written = "\"1 m/s\"", example = "\"0.5 m/s\"", exists = exists::SPEED, beside = [beside::SPEED])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_upper: Option<MetrePerSecond>,
-    /// `"overlap"` only: speed of the upper body; required for growing films, temperature and viscoelastic bodies.
+    /// `"overlap"` only: speed of the upper body; required for growing films, temperature and viscoelastic
+    /// bodies.
     #[key(
         quantity = Speed,
         range = AboveZero,
@@ -73,7 +78,8 @@ pub struct MotionSpec {
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<MetrePerSecond>,
-    /// Viscoelastic bodies only: time for which they are apart between two passes; without it the passes of a shift follow each other in contact.
+    /// Viscoelastic bodies only: time for which they are apart between two passes; without it the passes of a
+    /// shift follow each other in contact.
     #[key(
         quantity = Time,
         range = FromZero,
@@ -89,7 +95,8 @@ pub struct MotionSpec {
     #[key(choice, default = Path::OneWay, example = "\"reciprocating\"")]
     #[serde(skip_serializing_if = "is_one_way")]
     pub path: Path,
-    /// Shift of the upper body along y from pass to pass, in cells; `"random"`: a random position, from `seed` and the number of the pass.
+    /// Shift of the upper body along y from pass to pass, in cells; `"random"`: a random position, from
+    /// `seed` and the number of the pass.
     #[key(
         special = offset,
         form = "whole number ≥ 0, or `\"random\"`",
@@ -105,7 +112,8 @@ pub struct MotionSpec {
     #[key(whole = 0, written = "0", example = "7")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
-    /// Upper body in the passes after the first: the same, or a fresh one, generated and prepared in the same way from another seed.
+    /// Upper body in the passes after the first: the same, or a fresh one, generated and prepared in the same
+    /// way from another seed.
     #[key(choice, default = CounterBody::Same, example = "\"fresh\"")]
     #[serde(skip_serializing_if = "is_same")]
     pub counter: CounterBody,
@@ -181,7 +189,8 @@ impl MotionSpec {
         }
     }
 
-    /// Returns where the load in [`Contact`](super::Contact) holds: as the mean over a pass, or at each position.
+    /// Returns where the load in [`Contact`](super::Contact) holds: as the mean over a pass, or at each
+    /// position.
     pub fn control(&self) -> ControlKind {
         self.control.unwrap_or(ControlKind::PassLoad)
     }

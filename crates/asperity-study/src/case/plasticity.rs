@@ -4,8 +4,8 @@ use super::{FrictionSpec, MotionSpec};
 use asperity_contact::motion::PlasticUpdate;
 use asperity_contact::with::plasticity::{INCREMENTS, Keep, PlasticRegion};
 
-/// Returns `[plasticity]` with its effect on the `motion` of the bodies and on their `friction`, whose table may give the increments. The load is
-/// not taken off the points of a case that `sweeps`.
+/// Returns `[plasticity]` with its effect on the `motion` of the bodies and on their `friction`, whose table
+/// may give the increments. The load is not taken off the points of a case that `sweeps`.
 pub(super) fn plasticity(
     mut region: PlasticRegion,
     motion: &mut Option<MotionSpec>,

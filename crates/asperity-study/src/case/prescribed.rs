@@ -18,11 +18,12 @@ pub enum ContactLoad {
     /// Total normal force; in a motion, the mean over a pass or the force at each position, see `control`.
     #[key(quantity = Force, range = AboveZero, example = "\"2 N\"", exists = exists::LOAD, beside = [beside::LOADS])]
     Load(Newton),
-    /// Load over the apparent area, the area of all cells at full overlap; during an overlap motion half of them overlap on average, so that
-    /// the mean pressure there is about twice as large.
+    /// Load over the apparent area, the area of all cells at full overlap; during an overlap motion half of
+    /// them overlap on average, so that the mean pressure there is about twice as large.
     #[key(quantity = Pressure, range = AboveZero, example = "\"1 MPa\"", exists = exists::LOAD, beside = [beside::LOADS])]
     MeanPressure(Pascal),
-    /// Distance by which the bodies have approached, of any sign; 0 if the planes z = 0 of both height maps coincide.
+    /// Distance by which the bodies have approached, of any sign; 0 if the planes z = 0 of both height maps
+    /// coincide.
     #[key(quantity = Length, example = "\"10 nm\"", exists = exists::LENGTH, beside = [beside::APPROACH])]
     Approach(Metre),
     /// Several loads, one after the other.

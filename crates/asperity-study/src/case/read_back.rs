@@ -8,8 +8,8 @@ use serde_json::{Map, Value};
 
 use super::Case;
 
-/// Reads a case from the keys of the case file, in any format of serde. Keys without a value count as absent; relative names of
-/// files stay as they are.
+/// Reads a case from the keys of the case file, in any format of serde. Keys without a value count as absent;
+/// relative names of files stay as they are.
 impl<'de> Deserialize<'de> for Case {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let keys = given(Map::deserialize(deserializer)?);

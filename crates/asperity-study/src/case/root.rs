@@ -8,7 +8,8 @@ use asperity_contact::with::plasticity::PlasticRegion;
 use asperity_contact::with::viscoelastic::Steady;
 use asperity_derive::Table;
 
-/// A case as it is written, without the tables of interfaces and capabilities. What a table means for another is still open.
+/// A case as it is written, without the tables of interfaces and capabilities. What a table means for another
+/// is still open.
 #[derive(Table, Debug, Clone, PartialEq)]
 #[table()]
 pub(super) struct Root {

@@ -10,7 +10,8 @@ use asperity_contact::with::{self, BodyLaw, Capability, Given, Listed};
 use asperity_contact::{each_capability, each_law};
 
 impl Case {
-    /// Returns what the contacts of a `pair` do to its bodies: the laws, what capabilities remember of load cycles, and heat.
+    /// Returns what the contacts of a `pair` do to its bodies: the laws, what capabilities remember of load
+    /// cycles, and heat.
     ///
     /// # Errors
     /// The errors of the library, and of the capabilities.
@@ -54,7 +55,8 @@ impl Case {
         kept
     }
 
-    /// Whether passes or cycles change the bodies: by a law, a custom one, too, or what a capability remembers of them.
+    /// Whether passes or cycles change the bodies: by a law, a custom one, too, or what a capability
+    /// remembers of them.
     pub(crate) fn is_changed_by_cycles(&self) -> bool {
         self.runs_in() || self.remembered() > 0 || self.has_custom_laws
     }
@@ -64,7 +66,8 @@ impl Case {
         [&self.lower, &self.upper].iter().any(|body| !body.laws.is_empty())
     }
 
-    /// Depth that both bodies lose per pressure and distance slid, 1/Pa, with shear equal to `friction` times the pressure.
+    /// Depth that both bodies lose per pressure and distance slid, 1/Pa, with shear equal to `friction` times
+    /// the pressure.
     pub(crate) fn loss_per_pressure(&self, friction: f64) -> PerPascal {
         let mut loss = 0.0;
         for body in [&self.lower, &self.upper] {

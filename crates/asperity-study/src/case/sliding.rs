@@ -20,7 +20,8 @@ pub struct SlidingSpec {
     #[key(quantity = Speed, range = AboveZero, absent = "unknown", example = "\"10 mm/s\"", exists = exists::SPEED)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<MetrePerSecond>,
-    /// Number of implicit updates, each a contact with the changes of the bodies during it; update i of n ends at the distance · (i/n)².
+    /// Number of implicit updates, each a contact with the changes of the bodies during it; update i of n
+    /// ends at the distance · (i/n)².
     #[key(count = 1, default = 40, example = "80")]
     pub updates: usize,
 }

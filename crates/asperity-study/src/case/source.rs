@@ -13,8 +13,8 @@ use asperity_surface::{Axis, Form, Generator, Preparation, ReadOptions, Topograp
 
 /// A topography as described in the case file.
 ///
-/// Its parts act in this order: the source; the steps of [`Preparation`], with `pitch` in place of `resample` if given;
-/// `plus`.
+/// Its parts act in this order: the source; the steps of [`Preparation`], with `pitch` in place of `resample`
+/// if given; `plus`.
 #[derive(Table, Debug, Clone, PartialEq, Serialize)]
 #[table("lower.topography", "upper.topography")]
 #[non_exhaustive]
@@ -23,7 +23,8 @@ pub struct TopographySpec {
     #[key(part)]
     #[serde(flatten)]
     pub source: Source,
-    /// Size of a cell; for a file without a pitch, its pitch; for a file with a pitch, the pitch after resampling, without `resample`.
+    /// Size of a cell; for a file without a pitch, its pitch; for a file with a pitch, the pitch after
+    /// resampling, without `resample`.
     #[key(
         quantity = Length,
         range = AboveZero,
@@ -53,17 +54,19 @@ pub struct TopographySpec {
 pub enum Source {
     /// A measured topography.
     File {
-        /// Path relative to the case file: x3p, sdf, gwy, sur, mnt, opd, opdx, MetroPro dat, plu, al3d, frt, tmd, nms, vk4 to vk7, NanoScope spm,
-        /// ibw, nid, WSxM stp, mi, bcr, gsf, asc, tiff, NetCDF, HDF5 (results too), mat, npy, npz, csv or text, also gzipped; see
-        /// [formats](formats.md).
+        /// Path relative to the case file: x3p, sdf, gwy, sur, mnt, opd, opdx, MetroPro dat, plu, al3d, frt,
+        /// tmd, nms, vk4 to vk7, NanoScope spm, ibw, nid, WSxM stp, mi, bcr, gsf, asc, tiff, NetCDF, HDF5
+        /// (results too), mat, npy, npz, csv or text, also gzipped; see [formats](formats.md).
         #[key(text, example = "\"disc.x3p\"")]
         file: PathBuf,
-        /// Height channel; for results `lower`, `upper` or `gap`; for other HDF5 files the path of a data set, `"/scan/height"`.
+        /// Height channel; for results `lower`, `upper` or `gap`; for other HDF5 files the path of a data
+        /// set, `"/scan/height"`.
         #[key(text, absent = "the first; required for several data sets", example = "\"height\"")]
         #[serde(skip_serializing_if = "Option::is_none")]
         channel: Option<String>,
-        /// Unit of the numbers in a file without units: heights of npy, npz, mat, text, csv, tiff, HDF5, NetCDF and ibw, and all lengths of asc
-        /// and of tables of points; an error for a file with its own unit.
+        /// Unit of the numbers in a file without units: heights of npy, npz, mat, text, csv, tiff, HDF5,
+        /// NetCDF and ibw, and all lengths of asc and of tables of points; an error for a file with its own
+        /// unit.
         #[key(
             special = unit,
             form = "unit, or length > 0",
@@ -117,8 +120,8 @@ pub enum Source {
 /// Place of the numbers in a file that does not determine it.
 #[derive(Part, Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Layout {
-    /// Direction of a line of a matrix; a text that looks like points is a matrix if this is given; an error for a format that determines it, see
-    /// [formats](formats.md).
+    /// Direction of a line of a matrix; a text that looks like points is a matrix if this is given; an error
+    /// for a format that determines it, see [formats](formats.md).
     #[key(
         choice,
         absent = "`\"x\"` for text, `\"y\"` for npy, npz, mat and HDF5, which are indexed `[ix, iy]`",

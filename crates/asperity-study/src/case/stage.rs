@@ -128,7 +128,8 @@ impl StageSpec {
         self.normal().is_some() || self.tangential().is_some()
     }
 
-    /// Returns the stage with its number of steps, which is `steps` for one that takes no time and does not name it.
+    /// Returns the stage with its number of steps, which is `steps` for one that takes no time and does not
+    /// name it.
     ///
     /// # Errors
     /// A hint, if it names nothing that changes; `keys` are examples of what it might.
@@ -187,8 +188,8 @@ pub(super) struct PresentLoading {
 }
 
 impl PresentLoading {
-    /// Comes back to the loading `before` the cycles that led here. A quantity of another kind than before comes back to a value that only the
-    /// contact knows.
+    /// Comes back to the loading `before` the cycles that led here. A quantity of another kind than before
+    /// comes back to a value that only the contact knows.
     fn come_back(&mut self, before: &Self) {
         let kinds = [
             discriminant(&self.loading.normal) == discriminant(&before.loading.normal),

@@ -13,8 +13,8 @@ use asperity_derive::Table;
 /// Depths and places within a body.
 const INSIDE: Beside = Beside::least(Scale::Cell, 0.1, "a part of a cell makes no difference");
 
-/// Requested output of the stress under the surface. Positions x and y are relative to the corner of the body, depths to
-/// its surface.
+/// Requested output of the stress under the surface. Positions x and y are relative to the corner of the
+/// body, depths to its surface.
 #[derive(Table, Debug, Clone, PartialEq, Serialize)]
 #[table("subsurface")]
 #[non_exhaustive]

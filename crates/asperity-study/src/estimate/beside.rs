@@ -27,7 +27,8 @@ pub(super) fn out_of_scale(case: &Case, bodies: &Bodies, estimate: &Estimate, cu
 pub(super) fn lost(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
     /// Depth that no instrument measures.
     const NOTHING: Metre = 1e-11;
-    /// Mean depth over the rms height of both surfaces, and over the longer side of the grid, up to which they stay surfaces.
+    /// Mean depth over the rms height of both surfaces, and over the longer side of the grid, up to which
+    /// they stay surfaces.
     const MOST: [f64; 2] = [30.0, 0.1];
     let grid = bodies.lower.topography.grid();
     let Control::Load(load) = estimate.control else { return Vec::new() };
@@ -129,7 +130,8 @@ impl Scales<'_> {
         ))
     }
 
-    /// Returns the smaller and the larger end of a scale for the key at the dotted `path`; `None` if the case does not have it.
+    /// Returns the smaller and the larger end of a scale for the key at the dotted `path`; `None` if the case
+    /// does not have it.
     fn scale(&self, scale: Scale, path: &str, dimension: Dimension) -> Option<[f64; 2]> {
         let Self { case, bodies, estimate, .. } = self;
         let is_upper = path.starts_with("upper.");
@@ -187,8 +189,8 @@ impl Scales<'_> {
         self.case.interface.is_empty().then_some(largest)
     }
 
-    /// Returns the mean pressures at which rough surfaces touch in about a cell, and everywhere. Persson (2001): the area of contact is
-    /// 2p/E*h' of the whole, and complete above some E*h'.
+    /// Returns the mean pressures at which rough surfaces touch in about a cell, and everywhere. Persson
+    /// (2001): the area of contact is 2p/E*h' of the whole, and complete above some E*h'.
     fn flattening(&self) -> Option<[f64; 2]> {
         let Self { case, estimate, curved, .. } = self;
         let pressure = estimate.modulus * estimate.gap_slope;

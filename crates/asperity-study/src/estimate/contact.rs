@@ -1,6 +1,7 @@
 //! Contacts that the grid does not resolve: cut off at its boundary, with too few cells, or absent.
 //!
-//! Predictions use Hertz' contact of the paraboloid closest to the gap. Warnings about a result use its pressures.
+//! Predictions use Hertz' contact of the paraboloid closest to the gap. Warnings about a result use its
+//! pressures.
 
 use ndarray::s;
 
@@ -13,11 +14,12 @@ use asperity_contact::solver::Control;
 /// Number of cells across a contact spot from which its pressures are accurate to a few per cent.
 pub(crate) const CELLS_ACROSS: usize = 6;
 
-/// Half-width of a contact over its radius of curvature up to which strains are small: they are about a third of it.
+/// Half-width of a contact over its radius of curvature up to which strains are small: they are about a third
+/// of it.
 const SMALL_STRAIN: f64 = 0.1;
 
-/// Returns the predictions of Hertz' estimate for bodies with this initial `gap`: whether the boundary cuts the contact
-/// off, and whether it has too few cells.
+/// Returns the predictions of Hertz' estimate for bodies with this initial `gap`: whether the boundary cuts
+/// the contact off, and whether it has too few cells.
 pub(super) fn predict(
     gap: &Field,
     pitch: [Metre; 2],
@@ -90,14 +92,14 @@ pub(super) struct HertzPrediction {
     pub(super) wide: Option<String>,
 }
 
-/// Finds the free side of the grid with the highest edge pressure for a contact with these semi-axes along the
-/// principal directions. Returns its axis, the reach of the contact from the apex, the distance of the side, and the
-/// pressure at the side over that at the centre.
+/// Finds the free side of the grid with the highest edge pressure for a contact with these semi-axes along
+/// the principal directions. Returns its axis, the reach of the contact from the apex, the distance of the
+/// side, and the pressure at the side over that at the centre.
 ///
-/// A contact with the reach a that is cut off at w presses on the last cells, of pitch h, with about p₀ (√(h/w) + 1.1
-/// (a/w − 1) √(w/h)). An edge at w adds a term to Hertz' pressure that grows as the inverse root of the distance from
-/// the edge, here averaged over a cell. The factor 1.1 is from computations of spheres and ellipsoids on 32 to 128
-/// cells.
+/// A contact with the reach a that is cut off at w presses on the last cells, of pitch h, with about p₀
+/// (√(h/w) + 1.1 (a/w − 1) √(w/h)). An edge at w adds a term to Hertz' pressure that grows as the inverse
+/// root of the distance from the edge, here averaged over a cell. The factor 1.1 is from computations of
+/// spheres and ellipsoids on 32 to 128 cells.
 fn hardest_side(
     paraboloid: &Paraboloid,
     semi_axes: [Metre; 2],
@@ -199,11 +201,12 @@ pub fn too_few_cells(across: usize) -> Option<String> {
     }
 }
 
-/// Warns if a free side of the grid cuts a curved contact off, according to the `pressure`. Either the pressure is largest
-/// in the outermost cells, or the load on one side of them is not much below that on the most loaded line inside.
+/// Warns if a free side of the grid cuts a curved contact off, according to the `pressure`. Either the
+/// pressure is largest in the outermost cells, or the load on one side of them is not much below that on the
+/// most loaded line inside.
 ///
-/// If the Hertzian contact of a sphere or an ellipsoid extends slightly beyond the side, its largest pressure is still
-/// accurate to 1 %. Once the pressure at the side exceeds it, the error soon exceeds 5 %.
+/// If the Hertzian contact of a sphere or an ellipsoid extends slightly beyond the side, its largest pressure
+/// is still accurate to 1 %. Once the pressure at the side exceeds it, the error soon exceeds 5 %.
 pub fn cut_off(
     pressure: &Field,
     gap: impl FnOnce() -> Field,

@@ -34,10 +34,11 @@ pub struct Demand {
     pub passes: f64,
     /// Whether bodies may need more passes than estimated: those whose pits end an extrapolation.
     pub is_least: bool,
-    /// Convolutions of all contacts together, with those on coarser grids weighted by their number of cells; 0 for
-    /// elasto-plastic bodies.
+    /// Convolutions of all contacts together, with those on coarser grids weighted by their number of cells;
+    /// 0 for elasto-plastic bodies.
     pub convolutions: f64,
-    /// Work of solving and writing, in units of the time per cell and log₂ N of one iteration: about a nanosecond.
+    /// Work of solving and writing, in units of the time per cell and log₂ N of one iteration: about a
+    /// nanosecond.
     pub effort: f64,
     /// Work of the figures and the page, in the same unit.
     pub drawing: f64,
@@ -56,7 +57,8 @@ pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Deman
     let solvers = threads.clamp(1, overlaps.len().max(1)) as f64 * solver;
     let memory = PROGRAM
         + match case.motion {
-            // Results of a static contact are written after its solver is freed, and drawn after all are written.
+            // Results of a static contact are written after its solver is freed, and drawn after all are
+            // written.
             None => {
                 let drawn = PICTURES + NUMBER * DRAWN * sizes.facing().iter().product::<f64>();
                 surfaces.making.max(surfaces.kept + solvers.max(results)).max(drawn)
@@ -92,8 +94,8 @@ pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Deman
     })
 }
 
-/// Returns an upper bound of the memory, bytes, that the contacts of `case` take on a device at a time, on `threads` threads.
-/// Only the sizes of files are read.
+/// Returns an upper bound of the memory, bytes, that the contacts of `case` take on a device at a time, on
+/// `threads` threads. Only the sizes of files are read.
 ///
 /// # Errors
 /// The errors of [`demand`].
@@ -115,10 +117,11 @@ pub fn memory_on_device(case: &Case, given: &SurfaceInput, threads: usize) -> Re
 }
 
 impl Demand {
-    /// Estimates the time of solving and writing, and that of figures and page, on this machine in its present state.
+    /// Estimates the time of solving and writing, and that of figures and page, on this machine in its
+    /// present state.
     ///
-    /// The time of a few convolutions is measured, in a few milliseconds. The sum is accurate within a factor of 1.5 for
-    /// the examples, and of three for ordinary contacts.
+    /// The time of a few convolutions is measured, in a few milliseconds. The sum is accurate within a factor
+    /// of 1.5 for the examples, and of three for ordinary contacts.
     pub fn times(&self) -> [Second; 2] {
         let unit = unit_of_effort();
         [self.effort * unit, self.drawing * unit]
@@ -141,7 +144,8 @@ const PICTURES: f64 = 60e6;
 const ANIMATION: f64 = 12e6;
 /// Number of fields of a static contact that are drawn at a time.
 const DRAWN: f64 = 6.0;
-/// Numbers of each cell for steady sliding: the directions of a step of Newton's iteration on half of the cells, and the fields.
+/// Numbers of each cell for steady sliding: the directions of a step of Newton's iteration on half of the
+/// cells, and the fields.
 const DIRECTIONS: f64 = 40.0;
 /// Terms of a fit to a master curve, and the fields of a term in a motion.
 const FITTED: usize = 24;
@@ -223,8 +227,8 @@ impl Sizes<'_> {
     fn memory(&self, threads: usize) -> Memory {
         let case = self.case;
         let [nx, ny] = self.facing();
-        // Numbers of the iteration for each cell. Half of the padded transform is stored, if single precision is
-        // enough. Of the real kernel a quarter is stored, and the kernels of the coarse grids.
+        // Numbers of the iteration for each cell. Half of the padded transform is stored, if single precision
+        // is enough. Of the real kernel a quarter is stored, and the kernels of the coarse grids.
         let [padded_x, padded_y] = case.contact.boundary.wraps().map(|wraps| if wraps { 1.0 } else { 2.0 });
         let padded = padded_x * nx * (padded_y * ny + 2.0);
         let stored = if matches!(case.contact.method, Method::Auto | Method::ActiveSet) { 0.5 } else { 1.0 };
@@ -232,8 +236,8 @@ impl Sizes<'_> {
         let dense = if case.contact.method == Method::Direct { (0.5 * nx * ny).powi(2) } else { 0.0 };
         let iteration = if padded_x * padded_y > 1.0 { ITERATION + NEAR_COPY } else { ITERATION };
         let normal = iteration * nx * ny + transforms + dense;
-        // Six kernels, three transforms, and about thirty numbers for each cell: tractions, displacements and slips of two
-        // increments, and the tangential iteration.
+        // Six kernels, three transforms, and about thirty numbers for each cell: tractions, displacements and
+        // slips of two increments, and the tangential iteration.
         let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 34.0 * nx * ny;
         let mut solver = NUMBER * if self.is_coupled() { normal + coupled } else { normal };
         if let Some(cost) = case.interface.cost() {
@@ -344,7 +348,8 @@ impl Sizes<'_> {
         self.case.friction.is_some() && (!slides || self.case.shear_displaces_normally())
     }
 
-    /// Estimates the number of computed passes from the stability limit and the largest depth of an extrapolation.
+    /// Estimates the number of computed passes from the stability limit and the largest depth of an
+    /// extrapolation.
     fn computed_passes(&self, passes: usize) -> f64 {
         /// Depth lost by the most worn cell over the mean.
         const DEEPEST: f64 = 8.0;
@@ -370,8 +375,8 @@ impl Sizes<'_> {
         passes.min(passes / jump + jump.log2())
     }
 
-    /// Returns the convolutions of all contacts, and the work of solving them with everything computed besides, in units of
-    /// a cell times the binary logarithm of the cells of its contact.
+    /// Returns the convolutions of all contacts, and the work of solving them with everything computed
+    /// besides, in units of a cell times the binary logarithm of the cells of its contact.
     fn solving(&self, threads: usize) -> (f64, f64) {
         let case = self.case;
         let [nx, ny] = self.facing();
@@ -502,7 +507,8 @@ impl Sizes<'_> {
         effort * work
     }
 
-    /// Number of contacts that an observer with this interval looks at together: those of a step, or of a whole cycle.
+    /// Number of contacts that an observer with this interval looks at together: those of a step, or of a
+    /// whole cycle.
     fn observed_together(&self, every: usize, whole: bool) -> usize {
         match (self.case.motion, every) {
             (None, every) if whole => {
@@ -624,7 +630,8 @@ const SHEAR_UNLIKE: Cost = Cost { convolutions: 68.0, work: 7.0 };
 const ROLLING: Cost = Cost { convolutions: 85.0, work: 4.6 };
 /// Steady rolling of dissimilar bodies.
 const ROLLING_UNLIKE: Cost = Cost { convolutions: 230.0, work: 5.0 };
-/// Steady sliding of a viscoelastic body, at each speed, and the exponent by which its convolutions grow with the number of cells.
+/// Steady sliding of a viscoelastic body, at each speed, and the exponent by which its convolutions grow with
+/// the number of cells.
 const STEADY: Cost = Cost { convolutions: 135.0, work: 2.5 };
 const STEADY_GROWTH: f64 = 0.6;
 /// Convolutions of a later pass relative to the first.
@@ -658,7 +665,8 @@ const START: f64 = 2.5e7;
 /// Exponent of the number of threads in the speed-up of shared work.
 const EFFICIENCY: f64 = 0.85;
 
-/// Measures the seconds per cell and log₂ N: the smallest of several convolutions, on this machine in its present state.
+/// Measures the seconds per cell and log₂ N: the smallest of several convolutions, on this machine in its
+/// present state.
 fn unit_of_effort() -> Second {
     /// Number of cells along each axis of the timed convolutions.
     const SIDE: usize = 128;

@@ -13,7 +13,8 @@ use asperity_base::units::{self, Dimension, Metre, Pascal, format_number};
 const WIDE: Metre = 1e-3;
 /// Composite modulus of the softest rubbers. Gels are softer, and rarely meant.
 const SOFT: Pascal = 1e6;
-/// Hardness over E/(1 − ν²) of a body: glass and the hardest ceramics come near this value, and metals stay below a fifth of it.
+/// Hardness over E/(1 − ν²) of a body: glass and the hardest ceramics come near this value, and metals stay
+/// below a fifth of it.
 const HARD: f64 = 0.1;
 
 /// Warns of implausible quantities in `case` on `grid`.

@@ -5,8 +5,8 @@
 //! /pressure     float64 [nx, ny]   unit "Pa"   axes "x,y"   pitch [m, m]   origin [m, m]
 //! ```
 //!
-//! A file gets its name once all of it is written, so that a killed run leaves only complete files: one for each pass.
-//! `origin` is the position of the centre of the first cell.
+//! A file gets its name once all of it is written, so that a killed run leaves only complete files: one for
+//! each pass. `origin` is the position of the centre of the first cell.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -30,7 +30,8 @@ use asperity_base::grid::{Field, Grid, check_finite};
 use asperity_base::io::packing;
 use asperity_base::units::Metre;
 
-/// A file of fields being written. Arrays are written to disk while others are added, so that only a few are in memory.
+/// A file of fields being written. Arrays are written to disk while others are added, so that only a few are
+/// in memory.
 pub struct FieldFile {
     attributes: BTreeMap<String, Attribute>,
     /// Digest of each array, by name.
@@ -79,8 +80,8 @@ impl FieldFile {
         Self { attributes, arrays, draft: draft(path), last: None, finite: false }
     }
 
-    /// Creates a file for `path` with the identity of a run. [`FieldFile::write`] rejects a value that is not finite with
-    /// [`Error::NotFinite`], unless its field may contain such values.
+    /// Creates a file for `path` with the identity of a run. [`FieldFile::write`] rejects a value that is not
+    /// finite with [`Error::NotFinite`], unless its field may contain such values.
     pub fn of_run(identity: &str, path: &Path) -> Self {
         let mut file = Self { finite: true, ..Self::new(path) };
         file.set("version", env!("CARGO_PKG_VERSION")).set("identity", identity);
@@ -110,7 +111,8 @@ impl FieldFile {
         self.add(name, unit, "x,y", &grid.shape, &grid.pitch, &origin, flat(&values.as_standard_layout()))
     }
 
-    /// Adds values on a section along x and into the depth z. Its first row is the surface, and its first column is at `x`.
+    /// Adds values on a section along x and into the depth z. Its first row is the surface, and its first
+    /// column is at `x`.
     ///
     /// # Panics
     /// If there are no values, or if an array `name` exists.
@@ -327,7 +329,8 @@ impl Fields {
         Ok(Self { path: path.to_owned(), file, bytes, names: OnceLock::new(), digests: None })
     }
 
-    /// Keeps the digest of each array that is read from now on, so that [`Self::verify`] does not read it again.
+    /// Keeps the digest of each array that is read from now on, so that [`Self::verify`] does not read it
+    /// again.
     pub fn with_digests(self) -> Self {
         Self { digests: Some(Mutex::default()), ..self }
     }
@@ -474,8 +477,8 @@ impl Source for FileBytes {
     }
 }
 
-/// Reads the values of an array that was packed by [`Packed`], on all threads. `None` for other arrays, and for damaged ones, whose
-/// error the library of the format reports.
+/// Reads the values of an array that was packed by [`Packed`], on all threads. `None` for other arrays, and
+/// for damaged ones, whose error the library of the format reports.
 fn unpacked(dataset: &Dataset, shape: &[usize], bytes: &FileBytes) -> Option<Vec<f64>> {
     let sizes: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
     let chunk = dataset.chunk_shape().ok()??;

@@ -18,8 +18,8 @@ pub(crate) struct Lock {
 }
 
 impl Lock {
-    /// Locks the file at `path`, which is created if missing and stays when the lock is released. Returns `None` if another
-    /// process holds the lock for longer than `patience`.
+    /// Locks the file at `path`, which is created if missing and stays when the lock is released. Returns
+    /// `None` if another process holds the lock for longer than `patience`.
     pub(crate) fn take(path: &Path, patience: Duration) -> io::Result<Option<Self>> {
         if fs::exists(path) {
             regular::check(path, "a file to be locked")?;

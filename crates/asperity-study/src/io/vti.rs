@@ -1,7 +1,7 @@
 //! VTK image data, `.vti`, for ParaView: fields of results on their grid.
 //!
-//! Format: "VTK XML file formats", image data with appended raw numbers, little-endian. Each array is preceded by its
-//! length in bytes, and x runs fastest.
+//! Format: "VTK XML file formats", image data with appended raw numbers, little-endian. Each array is
+//! preceded by its length in bytes, and x runs fastest.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -71,11 +71,13 @@ impl Image<'_> {
     }
 }
 
-/// Writes the fields of the file at `path`, `NAME.h5`, on the grid of the lower body as `NAME.vti`, and those on a
-/// different grid of the upper body as `NAME-upper.vti`. Fields on a part of the lower body are undefined beyond it.
+/// Writes the fields of the file at `path`, `NAME.h5`, on the grid of the lower body as `NAME.vti`, and those
+/// on a different grid of the upper body as `NAME-upper.vti`. Fields on a part of the lower body are
+/// undefined beyond it.
 ///
 /// # Errors
-/// [`Error::File`](asperity_base::Error::File) if the file cannot be read, or if one of the others cannot be written.
+/// [`Error::File`](asperity_base::Error::File) if the file cannot be read, or if one of the others cannot be
+/// written.
 pub fn write_fields(path: &Path) -> Result<()> {
     let fields = Fields::open(path)?;
     let mut lower: Option<Sheet> = None;
@@ -145,8 +147,8 @@ impl Sheet {
     }
 }
 
-/// Writes values on planes at evenly spaced depths under the surface of a body as a volume. z is 0 at the surface and
-/// decreases into the body. The centre of the first cell is at `origin`.
+/// Writes values on planes at evenly spaced depths under the surface of a body as a volume. z is 0 at the
+/// surface and decreases into the body. The centre of the first cell is at `origin`.
 ///
 /// # Errors
 /// [`Error::File`](asperity_base::Error::File).

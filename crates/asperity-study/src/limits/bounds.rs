@@ -11,20 +11,21 @@ use asperity_contact::solver::Control;
 
 /// E* up to which bodies are rubbers and gels, which stay elastic at any strain.
 const RUBBER: Pascal = 1e8;
-/// Share of the cells at the hardness above which hardly a gap is left, as the share of the plastic limit in an estimate.
+/// Share of the cells at the hardness above which hardly a gap is left, as the share of the plastic limit in
+/// an estimate.
 const NEAR_PLASTIC_LIMIT: f64 = 0.5;
 /// Temperature at which steel melts; most other metals and glasses melt or soften below it.
 const MELTING: Kelvin = 1800.0;
 /// Elastic displacement over the longer side of the bodies: strains are then no longer small.
 pub(super) const LARGE_DISPLACEMENT: f64 = 0.1;
 
-/// The bounds of the limits for the bodies of a case; infinite where a limit does not apply, or where the estimate of the case
-/// already warns.
+/// The bounds of the limits for the bodies of a case; infinite where a limit does not apply, or where the
+/// estimate of the case already warns.
 pub(super) struct Bounds {
     /// Up to [`STEEP`] tan and sin of a slope agree.
     pub(super) slope: f64,
-    /// The width of a cell, or the depth d at which a wave of the mean length λ = 2π Sq/Sdq of the gap that loses its summits alone
-    /// becomes steep by itself: its rms slope is πd/√2λ.
+    /// The width of a cell, or the depth d at which a wave of the mean length λ = 2π Sq/Sdq of the gap that
+    /// loses its summits alone becomes steep by itself: its rms slope is πd/√2λ.
     pub(super) removal: Metre,
     /// [`STRENGTH`] times E*, for bodies without a coating.
     pub(super) pressure: Pascal,

@@ -1,9 +1,10 @@
 //! The limits of the model, compared with results while they come.
 //!
-//! A limit is a row of [`table::limits`]: the quantity that it bounds and the sentence that says how it was exceeded. Its bound, with the
-//! reason, is a field of [`Bounds`]. The first step that exceeds a limit is a row of `limits.csv`, which is written before the row of
-//! the step itself, and the sentence goes to the watch at once. A limit is reported once. A body that is no longer a surface at all
-//! is an error of `motion::worn_away`.
+//! A limit is a row of [`table::limits`]: the quantity that it bounds and the sentence that says how it was
+//! exceeded. Its bound, with the reason, is a field of [`Bounds`]. The first step that exceeds a limit is a
+//! row of `limits.csv`, which is written before the row of the step itself, and the sentence goes to the
+//! watch at once. A limit is reported once. A body that is no longer a surface at all is an error of
+//! `motion::worn_away`.
 
 mod bounds; // the bounds of a case
 mod findings; // the quantities of a step
@@ -57,8 +58,8 @@ pub(super) struct Limits {
 }
 
 impl Limits {
-    /// Creates the limits of a `case` with these bodies before its first step. With a `writer` broken limits go to its table, after
-    /// those of the steps that are `done`.
+    /// Creates the limits of a `case` with these bodies before its first step. With a `writer` broken limits
+    /// go to its table, after those of the steps that are `done`.
     ///
     /// # Errors
     /// [`asperity_base::Error::File`].

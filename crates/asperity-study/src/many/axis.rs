@@ -91,8 +91,8 @@ impl Axis {
         }
     }
 
-    /// Returns the value of this index for people: `1 N`. Numbers with more than four digits are shortened, to at least
-    /// three digits that still distinguish the values.
+    /// Returns the value of this index for people: `1 N`. Numbers with more than four digits are shortened,
+    /// to at least three digits that still distinguish the values.
     pub fn text(&self, index: usize) -> &str {
         &self.texts[index]
     }
@@ -111,7 +111,8 @@ impl Axis {
     }
 }
 
-/// Writes values for people, with as few digits as distinguish them. Values that are short in the file stay as they are.
+/// Writes values for people, with as few digits as distinguish them. Values that are short in the file stay
+/// as they are.
 fn texts(values: &[ValueInFile], numbers: Option<&[f64]>, dimension: Option<Dimension>) -> Vec<String> {
     const LEAST: usize = 3;
     const ALL: usize = 17;

@@ -52,8 +52,8 @@ impl Base {
         sha256(table.to_string().as_bytes())
     }
 
-    /// Returns the text of a case with these values. `folder` is its future place; without one, files are relative to the
-    /// working directory.
+    /// Returns the text of a case with these values. `folder` is its future place; without one, files are
+    /// relative to the working directory.
     ///
     /// # Errors
     /// The number of a value that cannot be inserted, and the reason.
@@ -123,7 +123,8 @@ fn inner<'v>(value: &'v Value, key: &str) -> Option<&'v Value> {
     }
 }
 
-/// Inserts a value under a dotted key, through tables, which are created if missing, and lists: `history.0.load`, `subsurface.planes.0`.
+/// Inserts a value under a dotted key, through tables, which are created if missing, and lists:
+/// `history.0.load`, `subsurface.planes.0`.
 fn set(table: &mut toml::Table, key: &str, value: Value) -> std::result::Result<(), String> {
     let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
     let Some(rest) = rest else {

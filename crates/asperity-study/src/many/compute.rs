@@ -1,4 +1,5 @@
-//! Computation of the remaining cases of a study: as many at a time as there are threads, and as fit in memory together.
+//! Computation of the remaining cases of a study: as many at a time as there are threads, and as fit in
+//! memory together.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -13,15 +14,16 @@ use crate::given::SurfaceInput;
 use asperity_base::error::{Error, Result};
 use asperity_contact::motion::{Progress, Watch};
 
-/// Computes the cases of a queue, as many at a time as the pool of the caller has threads. If fewer cases are left, each
-/// gets several threads.
+/// Computes the cases of a queue, as many at a time as the pool of the caller has threads. If fewer cases are
+/// left, each gets several threads.
 ///
-/// Cases that do not fit together in `memory`, bytes, wait for each other. `ended` is called for each case, from 1, once it
-/// is over. `stop` is called repeatedly; if it returns true, the running cases are given up and open again.
+/// Cases that do not fit together in `memory`, bytes, wait for each other. `ended` is called for each case,
+/// from 1, once it is over. `stop` is called repeatedly; if it returns true, the running cases are given up
+/// and open again.
 ///
 /// # Errors
-/// [`Error::Interrupted`] if `stop` returned true, [`Error::SurfaceChanged`] if a file of the study has changed since its
-/// plan was made, [`Error::Threads`], [`Error::File`] if the study cannot be written to.
+/// [`Error::Interrupted`] if `stop` returned true, [`Error::SurfaceChanged`] if a file of the study has
+/// changed since its plan was made, [`Error::Threads`], [`Error::File`] if the study cannot be written to.
 pub fn compute(
     queue: &Queue<'_>,
     memory: f64,

@@ -109,7 +109,8 @@ fn at(entry: &Entry<'_>, error: &Error) -> Error {
     entry.error(error.to_string(), error.hint())
 }
 
-/// Reads the rows of a table in a file. Its columns, which are keys of the case, become axes. A column `case` is ignored.
+/// Reads the rows of a table in a file. Its columns, which are keys of the case, become axes. A column `case`
+/// is ignored.
 fn rows(entry: &Entry<'_>, folder: &Path, axes: &mut Vec<Axis>) -> Result<Rows> {
     let path: PathBuf = folder.join(entry.text()?);
     let text = text_of(&path, "a table of cases", MAX_TABLE_BYTES).map_err(|error| at(entry, &error))?;
@@ -169,8 +170,8 @@ fn rows(entry: &Entry<'_>, folder: &Path, axes: &mut Vec<Axis>) -> Result<Rows> 
     Ok(Rows { document, first, rows })
 }
 
-/// Returns the value of a cell: a number, true or false, a list, or a text; `None` for an empty cell. A number under a
-/// header with a unit is a quantity.
+/// Returns the value of a cell: a number, true or false, a list, or a text; `None` for an empty cell. A
+/// number under a header with a unit is a quantity.
 fn value(cell: &str, unit: &str) -> Option<Value> {
     if cell.is_empty() {
         return None;

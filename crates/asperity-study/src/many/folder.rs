@@ -88,9 +88,9 @@ pub(super) struct FailedCase {
 }
 
 impl Folder {
-    /// Numbers the cases of a study like the plan stored in the directory `path`: its cases first, all others after them. A
-    /// study may so have further values on any axis, and finished cases keep their numbers. Without a stored plan, or with
-    /// one of other axes, the study stays as it is.
+    /// Numbers the cases of a study like the plan stored in the directory `path`: its cases first, all others
+    /// after them. A study may so have further values on any axis, and finished cases keep their numbers.
+    /// Without a stored plan, or with one of other axes, the study stays as it is.
     ///
     /// # Errors
     /// [`Error::File`] if the stored plan cannot be read.
@@ -104,11 +104,12 @@ impl Folder {
 
     /// Opens the directory of a study with its plan; creates it if missing.
     ///
-    /// The study may have more cases than when it was begun, after all others: [`Folder::number`] numbers them so.
+    /// The study may have more cases than when it was begun, after all others: [`Folder::number`] numbers
+    /// them so.
     ///
     /// # Errors
-    /// [`Error::NotThisStudy`] if the directory contains another study, or other files; [`Error::SurfaceChanged`] if
-    /// finished cases were computed from other file contents; [`Error::File`].
+    /// [`Error::NotThisStudy`] if the directory contains another study, or other files;
+    /// [`Error::SurfaceChanged`] if finished cases were computed from other file contents; [`Error::File`].
     pub fn enter(path: &Path, study: &Study) -> Result<Self> {
         let failed = |source| Error::File { path: path.to_owned(), source };
         let folder = Self { path: path.to_owned() };
@@ -118,8 +119,8 @@ impl Folder {
                 _ => source,
             })
         })?;
-        // Nothing is removed, because other processes may work here. The first file they write identifies the study, so it
-        // is checked last.
+        // Nothing is removed, because other processes may work here. The first file they write identifies the
+        // study, so it is checked last.
         if !is_empty(path).map_err(failed)? && !fs::exists(folder.identity_path()) {
             return Err(Error::NotThisStudy {
                 path: path.to_owned(),
@@ -236,7 +237,8 @@ impl Folder {
         self.path.join("study.json")
     }
 
-    /// Returns an error unless the directory belongs to this study. Then stores the longer of its plan and the stored one.
+    /// Returns an error unless the directory belongs to this study. Then stores the longer of its plan and
+    /// the stored one.
     fn admit(&self, study: &Study) -> Result<()> {
         let (identity, plan) = (self.identity_path(), self.path.join("plan.csv"));
         let other = |what| Error::NotThisStudy { path: self.path.clone(), what };
@@ -260,8 +262,8 @@ impl Folder {
     }
 }
 
-/// Returns the cases of a plan, from 0, in the order of a stored one: its cases first, then all others. `None` if they have
-/// that order already, or if the plans have other axes.
+/// Returns the cases of a plan, from 0, in the order of a stored one: its cases first, then all others.
+/// `None` if they have that order already, or if the plans have other axes.
 fn order(stored: &str, ours: &str, cases: usize) -> Option<Vec<usize>> {
     if stored.is_empty() || ours.starts_with(stored) || stored.starts_with(ours) {
         return None;

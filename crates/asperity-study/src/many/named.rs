@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-/// A file named in a study: its dotted key in the case, the text that names it in the study, and its path from the working
-/// directory.
+/// A file named in a study: its dotted key in the case, the text that names it in the study, and its path
+/// from the working directory.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct NamedFile {
     pub(super) key: String,
@@ -13,7 +13,8 @@ pub(super) struct NamedFile {
 }
 
 impl NamedFile {
-    /// Name of the file among the digests, independent of the place of the study: its key, and for an axis its value.
+    /// Name of the file among the digests, independent of the place of the study: its key, and for an axis
+    /// its value.
     pub(super) fn name(&self) -> String {
         match &self.value {
             None => self.key.clone(),

@@ -31,18 +31,19 @@ pub struct Study {
 }
 
 impl Study {
-    /// Reads a study file and makes its plan. Every value of every axis is tried in one case, so that mistakes are reported
-    /// before anything is computed. Mistakes that depend on several values, or on the content of files, are reported when
-    /// the case runs.
+    /// Reads a study file and makes its plan. Every value of every axis is tried in one case, so that
+    /// mistakes are reported before anything is computed. Mistakes that depend on several values, or on the
+    /// content of files, are reported when the case runs.
     ///
     /// # Errors
-    /// [`Error::File`] if a file cannot be read, [`Error::Case`] if the study, its table or its base has a mistake.
+    /// [`Error::File`] if a file cannot be read, [`Error::Case`] if the study, its table or its base has a
+    /// mistake.
     pub fn load(path: &Path) -> Result<Self> {
         Self::of(file::load(path)?)
     }
 
-    /// Makes a study from the text of a study file. `path` is its name in errors; paths of files are relative to its
-    /// folder.
+    /// Makes a study from the text of a study file. `path` is its name in errors; paths of files are relative
+    /// to its folder.
     ///
     /// # Errors
     /// The errors of [`Study::load`].
@@ -109,8 +110,8 @@ impl Study {
         values.collect::<Vec<_>>().join(", ")
     }
 
-    /// Returns the case file of a case, from 1. `folder` is its future place; without one, files are relative to the
-    /// working directory.
+    /// Returns the case file of a case, from 1. `folder` is its future place; without one, files are relative
+    /// to the working directory.
     ///
     /// # Errors
     /// [`Error::Case`] if a value cannot be inserted in the base.
@@ -124,9 +125,9 @@ impl Study {
             .map_err(|(axis, message)| self.error_at(case, axis, &message, None))
     }
 
-    /// Returns the cases whose load is known to exceed the plastic limit before anything is computed, and the error of each.
-    /// In a study of more than 1000 cases, only the first case with each value of each axis is checked. Hardness maps
-    /// are not read.
+    /// Returns the cases whose load is known to exceed the plastic limit before anything is computed, and the
+    /// error of each. In a study of more than 1000 cases, only the first case with each value of each axis is
+    /// checked. Hardness maps are not read.
     pub fn beyond_plastic_limit(&self) -> Vec<(usize, Error)> {
         const ALL: usize = 1000;
         let looked_at = if self.len() <= ALL { (1..=self.len()).collect() } else { self.tried() };
@@ -146,8 +147,8 @@ impl Study {
         Self { indices, ..self }
     }
 
-    /// Writes the plan as CSV: for each case a row with its number and the values of its axes. A text that a spreadsheet
-    /// would read as a formula begins with an apostrophe.
+    /// Writes the plan as CSV: for each case a row with its number and the values of its axes. A text that a
+    /// spreadsheet would read as a formula begins with an apostrophe.
     pub fn csv(&self) -> String {
         let cells: Vec<Vec<String>> = self
             .axes()

@@ -13,7 +13,8 @@ const SWEPT: [(&str, &str); 5] = [
     ("/steady/speeds", "steady.speed"),
 ];
 
-/// Returns the key of a point of the sweep of a resolved case, and the values of all points; `None` without a list of points.
+/// Returns the key of a point of the sweep of a resolved case, and the values of all points; `None` without a
+/// list of points.
 pub(super) fn swept(case: &Value) -> Option<(&'static str, Vec<toml::Value>)> {
     let (key, values) = SWEPT.iter().find_map(|(list, key)| Some((*key, case.pointer(list)?.as_array()?)))?;
     let pairs: Vec<&[Value]> =
@@ -27,7 +28,8 @@ pub(super) fn swept(case: &Value) -> Option<(&'static str, Vec<toml::Value>)> {
     Some((key, values.iter().map(value).collect::<Option<_>>()?))
 }
 
-/// Returns the axis of the points of these sweeps, with each of their values once; `None` if they change different keys.
+/// Returns the axis of the points of these sweeps, with each of their values once; `None` if they change
+/// different keys.
 pub(super) fn axis<'a>(sweeps: impl Iterator<Item = &'a (&'static str, Vec<toml::Value>)>) -> Option<Axis> {
     let (mut key, mut all): (_, Vec<ValueInFile>) = (None, Vec::new());
     for (of_sweep, values) in sweeps {

@@ -28,7 +28,8 @@ impl Spread {
 }
 
 impl Table {
-    /// Returns the finished rows that differ in nothing but seeds together, by their indices, in the order of the table.
+    /// Returns the finished rows that differ in nothing but seeds together, by their indices, in the order of
+    /// the table.
     pub fn samples(&self) -> Vec<Vec<usize>> {
         let mut places = BTreeMap::new();
         let mut samples: Vec<Vec<usize>> = Vec::new();

@@ -43,7 +43,8 @@ pub struct Table {
 pub struct TableColumn {
     /// Name of the number in the results of a case.
     pub name: String,
-    /// Whether it is a value of the last pass of a motion, and neither a state after it nor a total of all passes.
+    /// Whether it is a value of the last pass of a motion, and neither a state after it nor a total of all
+    /// passes.
     pub of_last_pass: bool,
     /// Name of the quantity, if it answers the question of the user: "worn volume, lower body".
     pub answer: Option<String>,
@@ -77,7 +78,8 @@ pub struct Row {
 }
 
 impl Table {
-    /// Collects the finished and failed cases of a study: a row per case, or per point of the sweep of a case.
+    /// Collects the finished and failed cases of a study: a row per case, or per point of the sweep of a
+    /// case.
     ///
     /// # Errors
     /// [`asperity_base::Error::File`] if the results or the failure of a case cannot be read.
@@ -177,8 +179,9 @@ impl Table {
         csv
     }
 
-    /// Writes the table as HDF5, atomically: one dataset per column, with its unit, along the cases. For values that are
-    /// texts, the dataset contains indices, and a file attribute `KEY: words` the texts, one per line.
+    /// Writes the table as HDF5, atomically: one dataset per column, with its unit, along the cases. For
+    /// values that are texts, the dataset contains indices, and a file attribute `KEY: words` the texts, one
+    /// per line.
     ///
     /// # Errors
     /// [`asperity_base::Error::File`].
@@ -277,7 +280,8 @@ fn found(folder: &Folder, case: usize) -> Result<Option<CaseData>> {
     }
 }
 
-/// Whether an error means that a file is damaged; a row of a table that cannot be read has no kind of its own.
+/// Whether an error means that a file is damaged; a row of a table that cannot be read has no kind of its
+/// own.
 fn is_damage(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::InvalidData | ErrorKind::UnexpectedEof | ErrorKind::Other)
 }
@@ -305,8 +309,8 @@ fn numbers(summary: &Summary, row: Vec<Cell>) -> Vec<Number> {
     row.into_iter().chain(interface).filter_map(number).collect()
 }
 
-/// Returns the columns that answer the question of the user: those of capabilities first, which say so, then those of the interface and of
-/// the laws of the bodies, which get their names.
+/// Returns the columns that answer the question of the user: those of capabilities first, which say so, then
+/// those of the interface and of the laws of the bodies, which get their names.
 fn answers(columns: &mut [TableColumn]) -> Vec<usize> {
     let known = with::answering_columns();
     let mut ranked = Vec::new();
@@ -330,8 +334,9 @@ fn answers(columns: &mut [TableColumn]) -> Vec<usize> {
 /// Prefix of the columns of the last update of a contact that slides in place.
 const SLIDING: &str = "sliding_";
 
-/// Returns the row of a case as a whole: the record of a static contact, or the totals and the last states of a motion. Then the values of
-/// sliding in place, of running-in, of the residual plastic flow, of the last most stressed point, and of the capabilities.
+/// Returns the row of a case as a whole: the record of a static contact, or the totals and the last states of
+/// a motion. Then the values of sliding in place, of running-in, of the residual plastic flow, of the last
+/// most stressed point, and of the capabilities.
 fn whole(summary: &Summary) -> Vec<Cell> {
     let of_record = |mut cells: Vec<Cell>| {
         cells.iter_mut().for_each(|cell| cell.over_motion = OverMotion::State);

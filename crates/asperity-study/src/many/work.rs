@@ -73,7 +73,8 @@ pub enum Computed {
 }
 
 impl<'s> Queue<'s> {
-    /// Creates the queue of the remaining cases of a study for a `task`. With `retry` it includes earlier failures.
+    /// Creates the queue of the remaining cases of a study for a `task`. With `retry` it includes earlier
+    /// failures.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -178,13 +179,13 @@ impl OwnedCase<'_> {
         Case::load(&path)
     }
 
-    /// Computes the case, from where an interrupted process left it, and writes its results, or the reason of its failure.
-    /// `admit` may refuse it once it is read.
+    /// Computes the case, from where an interrupted process left it, and writes its results, or the reason of
+    /// its failure. `admit` may refuse it once it is read.
     ///
     /// # Errors
-    /// [`Error::Interrupted`] if `watch` requests it, [`Error::SurfaceChanged`] if a file of the study has changed since
-    /// its plan was made, [`Error::File`] if the study cannot be written to. These are not recorded as failures: the case
-    /// is open again.
+    /// [`Error::Interrupted`] if `watch` requests it, [`Error::SurfaceChanged`] if a file of the study has
+    /// changed since its plan was made, [`Error::File`] if the study cannot be written to. These are not
+    /// recorded as failures: the case is open again.
     pub fn compute<T>(self, admit: impl FnOnce(&Case) -> Result<T>, watch: &dyn Watch) -> Result<Computed> {
         let folder = self.queue.folder.case(self.case);
         let failure = self.queue.folder.failure_path(self.case);

@@ -27,7 +27,8 @@ impl Line {
     }
 }
 
-/// Divides each line of a text into cells, at tabs, else at semicolons, else at commas, else at blanks. A cell may be quoted.
+/// Divides each line of a text into cells, at tabs, else at semicolons, else at commas, else at blanks. A
+/// cell may be quoted.
 pub(super) fn lines(text: &str) -> Vec<Line> {
     let line = |(index, line): (usize, &str)| {
         let is_comment = line.starts_with('#');
@@ -51,7 +52,8 @@ fn commas_separate(line: &str) -> bool {
         && !(has_blanks && line.chars().all(is_number) && line.split_whitespace().all(is_decimal))
 }
 
-/// Divides a line at a separator outside of quotes. A quote opens at the start of a cell and closes at its end.
+/// Divides a line at a separator outside of quotes. A quote opens at the start of a cell and closes at its
+/// end.
 fn separated(line: &str, separator: char) -> Vec<String> {
     let mut cells = vec![String::new()];
     let mut is_quoted = false;
@@ -71,7 +73,8 @@ fn separated(line: &str, separator: char) -> Vec<String> {
     cells.iter().map(|cell| cell.trim().to_owned()).collect()
 }
 
-/// Divides a line at blanks: numbers at each, words at two or more if there are such. A unit in brackets belongs to the word before it.
+/// Divides a line at blanks: numbers at each, words at two or more if there are such. A unit in brackets
+/// belongs to the word before it.
 fn spaced(line: &str) -> Vec<String> {
     let words: Vec<&str> = line.split_whitespace().collect();
     if !words.iter().all(|word| is_number(word)) && line.trim().contains("  ") {

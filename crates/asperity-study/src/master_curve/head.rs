@@ -27,7 +27,8 @@ impl Head {
         Some(Self { line: *lines.last()?, titles })
     }
 
-    /// The last `suitable` line that names a modulus above the first numbers. A description above it may name one, too.
+    /// The last `suitable` line that names a modulus above the first numbers. A description above it may name
+    /// one, too.
     fn above_numbers(lines: &[Line], suitable: impl Fn(&Line) -> bool) -> Option<Self> {
         let head = |line: &Line| Some(Self::of(line)).filter(|head| suitable(line) && head.names_a_modulus());
         let first = lines.iter().position(|line| head(line).is_some())?;
@@ -47,7 +48,8 @@ impl Head {
         (head.titles.len() == 3 && head.titles.iter().all(|title| title.factor().is_some())).then_some(head)
     }
 
-    /// Takes units from the lines above the numbers, and returns the columns of the curve with the lines from the numbers on.
+    /// Takes units from the lines above the numbers, and returns the columns of the curve with the lines from
+    /// the numbers on.
     pub(super) fn columns<'a>(&self, body: &'a [Line]) -> Read<(Columns, &'a [Line])> {
         let deformation = self.deformation();
         let suits = |title: &Title| title.deformation.is_none_or(|found| found == deformation);
@@ -130,8 +132,8 @@ impl Head {
     }
 }
 
-/// Returns the factor of a column without a unit in its title: of the unit below it, else of the only one of its kind in the lines below,
-/// whose cells blanks may shift.
+/// Returns the factor of a column without a unit in its title: of the unit below it, else of the only one of
+/// its kind in the lines below, whose cells blanks may shift.
 fn unit_below(title: &Title, index: usize, lines: &[Line]) -> Option<f64> {
     let factor = |cell: &str| {
         let unit = Some(Unit::of(cell)?);

@@ -1,7 +1,8 @@
 //! Master curves of viscoelastic bodies, from text files as instruments export them.
 //!
-//! A line names the columns, which are found by their titles, in any order. Units stand in the titles or in a line below them. A column of
-//! tan δ or of the phase angle takes the place of a modulus, and |E*| that of E′. Shear moduli become those of tension.
+//! A line names the columns, which are found by their titles, in any order. Units stand in the titles or in a
+//! line below them. A column of tan δ or of the phase angle takes the place of a modulus, and |E*| that of
+//! E′. Shear moduli become those of tension.
 
 mod cells;
 mod columns;

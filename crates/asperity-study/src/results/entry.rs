@@ -85,8 +85,8 @@ pub(super) enum ExistingResults {
     Steps,
 }
 
-/// Locks `directory`, created if missing, for the results of `case`, unless its `lock` is held already. Returns the results
-/// to keep. Nothing is cleared yet.
+/// Locks `directory`, created if missing, for the results of `case`, unless its `lock` is held already.
+/// Returns the results to keep. Nothing is cleared yet.
 pub(super) fn enter(
     directory: &Path,
     case: &Value,
@@ -138,7 +138,8 @@ fn admit(directory: &Path, existing: Existing) -> Result<()> {
     }
 }
 
-/// Whether the directory contains nothing but a case file and the files of a run that ended before its `case.json`.
+/// Whether the directory contains nothing but a case file and the files of a run that ended before its
+/// `case.json`.
 fn is_vacant(directory: &Path) -> io::Result<bool> {
     for entry in fs::read_dir(directory)? {
         let entry = entry?;
@@ -214,7 +215,8 @@ fn resumable_passes(results: &Results, case: &Value, identity: &str) -> Result<E
             whole(&results.subsurface_path(Some(pass)), identity, Some(pass))?;
         }
     }
-    // For elasto-plastic bodies the last pass must have its plastic state; if all passes are kept, every pass.
+    // For elasto-plastic bodies the last pass must have its plastic state; if all passes are kept, every
+    // pass.
     match case.pointer("/plasticity/keep").and_then(Value::as_str) {
         Some("passes") => {
             for pass in 1..=passes.len() {
@@ -254,8 +256,8 @@ fn kept_points(
     Ok(ExistingResults::Steps)
 }
 
-/// Returns an error unless the fields of these contacts that are kept are undamaged fields of this run. Those of the contact that the
-/// answers describe may have been removed for a later one whose row is not written.
+/// Returns an error unless the fields of these contacts that are kept are undamaged fields of this run. Those
+/// of the contact that the answers describe may have been removed for a later one whose row is not written.
 fn whole_contacts<'a>(
     every: usize,
     rows: impl ExactSizeIterator<Item = StepRow<'a>>,
@@ -290,8 +292,8 @@ fn whole(path: &Path, identity: &str, pass: Option<usize>) -> Result<()> {
     fields.verify()
 }
 
-/// Returns an error if the state at `path` was written with rows of another digest: the `table` of these rows, or a table
-/// beside it, was then changed since.
+/// Returns an error if the state at `path` was written with rows of another digest: the `table` of these
+/// rows, or a table beside it, was then changed since.
 fn same_rows(path: &Path, digest: &str, table: &Path) -> Result<()> {
     // A required state has been read in full; others may be missing.
     let Ok(attributes) = Fields::open(path).and_then(|fields| fields.attributes()) else { return Ok(()) };
@@ -317,8 +319,8 @@ fn unlike_summary<T: serde::Serialize>(results: &Results, rows: &[T], table: &Pa
     }
 }
 
-/// Removes the results of an earlier computation, except the kept ones and, for elasto-plastic bodies, the volumes to
-/// `keep`. Nothing else is removed.
+/// Removes the results of an earlier computation, except the kept ones and, for elasto-plastic bodies, the
+/// volumes to `keep`. Nothing else is removed.
 pub(super) fn clear(results: &Results, kept: ExistingResults, keep: Keep) -> Result<()> {
     let at = |name: &str| results.directory.join(name);
     // They describe the complete results, or are absent.
@@ -326,7 +328,8 @@ pub(super) fn clear(results: &Results, kept: ExistingResults, keep: Keep) -> Res
     results.remove(&at(RESULTS_TABLE))?;
     match kept {
         ExistingResults::Nothing => {
-            // Files that mark something as done go first. The file that marks the directory as results is never removed.
+            // Files that mark something as done go first. The file that marks the directory as results is
+            // never removed.
             for name in
                 ["passes.csv", "steps.csv", "increments.csv", "updates.csv", "sweep.csv", "report.html"]
                     .iter()
@@ -350,8 +353,8 @@ pub(super) fn clear(results: &Results, kept: ExistingResults, keep: Keep) -> Res
 /// Files of fields of a static contact.
 const AT_REST: [&str; 5] = ["fields.h5", "fields.vti", "subsurface.h5", "subsurface.vti", "plasticity.h5"];
 
-/// Removes the fields of unfinished passes, and the states of all but the last finished one. Volumes that must be kept
-/// stay.
+/// Removes the fields of unfinished passes, and the states of all but the last finished one. Volumes that
+/// must be kept stay.
 fn clear_later(results: &Results, passes: usize, keep: Keep) -> Result<()> {
     let mut names: Vec<_> = (0..=passes).map(|pass| results.fields_path(pass)).collect();
     names.extend((1..=passes).map(|pass| results.subsurface_path(Some(pass))));

@@ -4,7 +4,8 @@ use super::is_nth;
 use asperity_contact::motion::StepRow;
 use asperity_contact::with;
 
-/// The points of a sweep, or the increments of a loading, whose fields are kept: each n-th, and the one that the answers describe.
+/// The points of a sweep, or the increments of a loading, whose fields are kept: each n-th, and the one that
+/// the answers describe.
 pub(super) struct KeptContacts {
     /// Interval n; 0 keeps none.
     every: usize,
@@ -18,7 +19,8 @@ impl KeptContacts {
         Self { every, answering: None }
     }
 
-    /// The choice after these steps, and a step whose fields may have been left when the course was interrupted.
+    /// The choice after these steps, and a step whose fields may have been left when the course was
+    /// interrupted.
     pub(super) fn after<'a>(every: usize, done: impl Iterator<Item = StepRow<'a>>) -> (Self, Option<usize>) {
         let (mut kept, mut left) = (Self::new(every), None);
         for (index, row) in done.enumerate() {

@@ -27,7 +27,8 @@
 //!     .lock                locked while a run writes here
 //! ```
 //!
-//! A step exists once its table has its row, which is written last. The state of the step before is then removed.
+//! A step exists once its table has its row, which is written last. The state of the step before is then
+//! removed.
 
 mod entry; // accepted content, clearing, the lock
 mod bodies; // bodies in field files
@@ -102,8 +103,8 @@ impl Results {
         serde_json::from_value(case).map_err(|error| self.failed(&self.case_path(), error.into()))
     }
 
-    /// Reads `case.json`: the case in SI under the keys of the case file, with the digests of its files and the `identity`
-    /// of the run.
+    /// Reads `case.json`: the case in SI under the keys of the case file, with the digests of its files and
+    /// the `identity` of the run.
     ///
     /// # Errors
     /// [`Error::File`], also if the file contains no case.
@@ -201,7 +202,8 @@ impl Results {
         Ok(increments)
     }
 
-    /// Reads the updates of a contact that slides in place, beginning before it slides; empty for other contacts.
+    /// Reads the updates of a contact that slides in place, beginning before it slides; empty for other
+    /// contacts.
     ///
     /// # Errors
     /// [`Error::File`], also if their number differs from that in the summary.
@@ -239,7 +241,8 @@ impl Results {
         }
     }
 
-    /// Returns an error if the number of `rows` in the table at `path` differs from that in the summary, if there is one.
+    /// Returns an error if the number of `rows` in the table at `path` differs from that in the summary, if
+    /// there is one.
     fn agree(&self, path: &Path, rows: usize, told: impl Fn(&Summary) -> Option<usize>) -> Result<()> {
         if !fs::exists(self.summary_path()) {
             return Ok(());
@@ -374,7 +377,8 @@ impl Results {
         Ok(found)
     }
 
-    /// Opens the fields of the capability of this `name`, of the positions of a pass or at a point that are kept.
+    /// Opens the fields of the capability of this `name`, of the positions of a pass or at a point that are
+    /// kept.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -382,7 +386,8 @@ impl Results {
         Fields::open(&self.observer_fields(name, step))
     }
 
-    /// Reads the limits of the model that the results exceed, in the order of their steps; empty if there are none.
+    /// Reads the limits of the model that the results exceed, in the order of their steps; empty if there are
+    /// none.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -433,8 +438,8 @@ impl Results {
         self.fields_folder().join(format!("state-{steps:04}.h5"))
     }
 
-    /// Returns the number of the last step with a state and a row; there are `rows` rows, the first with the number
-    /// `first`. `None` if there is no state.
+    /// Returns the number of the last step with a state and a row; there are `rows` rows, the first with the
+    /// number `first`. `None` if there is no state.
     ///
     /// # Errors
     /// [`Error::NotResumable`] if rows up to the state are missing in `table`.
@@ -487,8 +492,8 @@ impl Results {
         self.under_way(pair, rows, 0, &table, |from, rows| SlidingState::restore(from, pair, rows))
     }
 
-    /// Restores the last state of an interrupted course of the `pair`, if there is one. It has the `rows` of a `table`, which are
-    /// counted from `first`.
+    /// Restores the last state of an interrupted course of the `pair`, if there is one. It has the `rows` of
+    /// a `table`, which are counted from `first`.
     fn under_way<T: Record, S>(
         &self,
         pair: &Pair,
@@ -517,7 +522,8 @@ impl Results {
         }
     }
 
-    /// Removes the states of a finished static contact but that after the step `kept`, and their folder if it is then empty.
+    /// Removes the states of a finished static contact but that after the step `kept`, and their folder if it
+    /// is then empty.
     pub(super) fn remove_states(&self, kept: Option<usize>) -> Result<()> {
         let Ok(entries) = fs::read_dir(self.fields_folder()) else { return Ok(()) };
         let states = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -600,7 +606,8 @@ impl Results {
     }
 }
 
-/// Returns the defect of a JSON value that is not a case, as far as the readers of results need it; `None` for a case.
+/// Returns the defect of a JSON value that is not a case, as far as the readers of results need it; `None`
+/// for a case.
 fn defect_of_case(case: &Value) -> Option<&'static str> {
     let Some(case) = case.as_object() else { return Some("holds no case, expected an object") };
     let is_text = |key: &str| case.get(key).is_none_or(Value::is_string);
@@ -671,7 +678,8 @@ pub fn pressure_name(step: usize) -> String {
     format!("pressure_{step:05}")
 }
 
-/// Name of the field with the pressure caps at a position, counted from 1; written if they differ from cell to cell.
+/// Name of the field with the pressure caps at a position, counted from 1; written if they differ from cell
+/// to cell.
 pub fn cap_name(step: usize) -> String {
     format!("cap_{step:05}")
 }
@@ -686,7 +694,8 @@ pub fn traction_name(step: usize) -> String {
     format!("traction_x_{step:05}")
 }
 
-/// Whether the first of some steps or points, that of number 1, and every n-th after it include a number; with n = 0 none.
+/// Whether the first of some steps or points, that of number 1, and every n-th after it include a number;
+/// with n = 0 none.
 pub(crate) fn is_nth(number: usize, n: usize) -> bool {
     n > 0 && (number + n - 1).is_multiple_of(n)
 }

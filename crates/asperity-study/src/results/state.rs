@@ -1,4 +1,5 @@
-//! States of courses in files: everything the next step depends on, so that an interrupted run gives the same bits.
+//! States of courses in files: everything the next step depends on, so that an interrupted run gives the same
+//! bits.
 
 use std::collections::BTreeMap;
 use std::io;

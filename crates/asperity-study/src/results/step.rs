@@ -1,8 +1,8 @@
 //! Output of a course to a results directory, step by step.
 //!
-//! The fields of a step are written first, then the state from which the next one continues, and last its row. A step is
-//! done once its row is written, and the state of the step before is then removed. The state after the last step is needed
-//! only for a motion, which may be extended by more passes.
+//! The fields of a step are written first, then the state from which the next one continues, and last its
+//! row. A step is done once its row is written, and the state of the step before is then removed. The state
+//! after the last step is needed only for a motion, which may be extended by more passes.
 
 use std::path::PathBuf;
 
@@ -69,8 +69,8 @@ impl Output for StepWriter {
 }
 
 impl Writer {
-    /// Creates the output for the increments of a loading, after those that are `done`, with the fields of every
-    /// `fields_every`-th (0 for none), and of the one that the answers describe.
+    /// Creates the output for the increments of a loading, after those that are `done`, with the fields of
+    /// every `fields_every`-th (0 for none), and of the one that the answers describe.
     ///
     /// # Errors
     /// [`asperity_base::Error::File`].
@@ -101,8 +101,8 @@ impl Writer {
         Ok(StepWriter { kept, ..writer })
     }
 
-    /// Creates the output for passes, with the pressures of every `pressure_every`-th position (0 for none), the stress
-    /// under the surface if there is a `plan`, and the volumes of elasto-plastic bodies.
+    /// Creates the output for passes, with the pressures of every `pressure_every`-th position (0 for none),
+    /// the stress under the surface if there is a `plan`, and the volumes of elasto-plastic bodies.
     ///
     /// # Errors
     /// [`asperity_base::Error::File`] if the results of earlier passes cannot be read.
@@ -141,7 +141,8 @@ impl StepWriter {
         wanted.map(|pass| SubsurfaceRecord::read(&self.results.subsurface_path(Some(pass)))).collect()
     }
 
-    /// Writes the state after a step, if another one follows, and appends the rows of its `positions` and its own row.
+    /// Writes the state after a step, if another one follows, and appends the rows of its `positions` and its
+    /// own row.
     fn add<T: Record>(&mut self, step: &Step<'_>, positions: &[StepRecord], record: &T) -> Result<()> {
         let record = std::slice::from_ref(record);
         let digest = tables::digest(&tables::digest(&self.digest, positions), record);

@@ -22,7 +22,8 @@ use asperity_contact::solver::Friction;
 use asperity_contact::subsurface::Tractions;
 use asperity_contact::with::plasticity::Keep;
 
-/// A results directory owned by one run. Other runs are refused until this is dropped, or until its process ends.
+/// A results directory owned by one run. Other runs are refused until this is dropped, or until its process
+/// ends.
 #[derive(Debug)]
 pub struct Writer {
     pub(super) results: Results,
@@ -33,14 +34,15 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// Creates `directory` for the results of `case`, the content of its `case.json`, or enters an existing one. Existing
-    /// files stay until [`Self::begin`].
+    /// Creates `directory` for the results of `case`, the content of its `case.json`, or enters an existing
+    /// one. Existing files stay until [`Self::begin`].
     ///
     /// # Errors
-    /// [`asperity_base::Error::ResultsExist`] if something must be kept, [`asperity_base::Error::WithinResults`], [`asperity_base::Error::InUse`]
-    /// if another run writes there, [`asperity_base::Error::File`]. To resume results, also [`asperity_base::Error::OtherCase`] (more
-    /// passes and another title are allowed), [`asperity_base::Error::SurfaceChanged`], and [`asperity_base::Error::NotResumable`] if a
-    /// file is missing or belongs to another run.
+    /// [`asperity_base::Error::ResultsExist`] if something must be kept,
+    /// [`asperity_base::Error::WithinResults`], [`asperity_base::Error::InUse`] if another run writes there,
+    /// [`asperity_base::Error::File`]. To resume results, also [`asperity_base::Error::OtherCase`] (more
+    /// passes and another title are allowed), [`asperity_base::Error::SurfaceChanged`], and
+    /// [`asperity_base::Error::NotResumable`] if a file is missing or belongs to another run.
     pub fn enter(directory: &Path, case: &Value, existing: Existing) -> Result<Self> {
         Self::enter_with(directory, case, existing, None)
     }
@@ -129,8 +131,8 @@ impl Writer {
         file.write()
     }
 
-    /// Computes and writes the stress under the surface of a static contact with these `tractions` on its lower body, and
-    /// with the plastic state of its bodies.
+    /// Computes and writes the stress under the surface of a static contact with these `tractions` on its
+    /// lower body, and with the plastic state of its bodies.
     ///
     /// # Errors
     /// [`asperity_base::Error::File`].

@@ -1,9 +1,10 @@
-//! Bad inputs are tables: in the files of `tests/inputs/bad`, each row is a case with the message that it must get.
+//! Bad inputs are tables: in the files of `tests/inputs/bad`, each row is a case with the message that it
+//! must get.
 //!
-//! A row begins with `### name`. Its tables take the place of those of [`BALL`] and come after the others; one as
-//! `[lower.wear]` is added to the body of the ball, and `#- [contact]` leaves a table out. Below the faulty line is
-//! `#^ message`, with its caret under the faulty place, then `#= hint: …` if the error has a hint. A row of `studies.toml` is
-//! a study of a good case, unless it names its own.
+//! A row begins with `### name`. Its tables take the place of those of [`BALL`] and come after the others;
+//! one as `[lower.wear]` is added to the body of the ball, and `#- [contact]` leaves a table out. Below the
+//! faulty line is `#^ message`, with its caret under the faulty place, then `#= hint: …` if the error has a
+//! hint. A row of `studies.toml` is a study of a good case, unless it names its own.
 
 use std::path::{Path, PathBuf};
 
@@ -119,8 +120,8 @@ fn a_file_that_is_not_there_is_named() {
     assert!(error.to_string().starts_with("nowhere/case.toml: "), "{error}");
 }
 
-/// Pieces of good cases are cut out, doubled and exchanged. Most of these cases are rejected, none causes a panic, and the
-/// place of each error can be shown.
+/// Pieces of good cases are cut out, doubled and exchanged. Most of these cases are rejected, none causes a
+/// panic, and the place of each error can be shown.
 #[test]
 fn a_damaged_case_never_panics() {
     let good: Vec<_> = files("good").iter().map(|file| std::fs::read_to_string(file).unwrap()).collect();

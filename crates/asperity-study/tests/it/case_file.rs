@@ -1,7 +1,9 @@
-//! The tables of docs/input.md and docs/input/ equal the declarations in the program: keys, and rules for combinations.
+//! The tables of docs/input.md and docs/input/ equal the declarations in the program: keys, and rules for
+//! combinations.
 //!
-//! `UPDATE_DOCS=1 cargo test -p asperity-study --test it case_file::` rewrites them. Above each table is a comment with its name:
-//! `<!-- keys: lower.wear -->`, `<!-- keys: lower.topography with file -->`, `<!-- rules -->`.
+//! `UPDATE_DOCS=1 cargo test -p asperity-study --test it case_file::` rewrites them. Above each table is a
+//! comment with its name: `<!-- keys: lower.wear -->`, `<!-- keys: lower.topography with file -->`,
+//! `<!-- rules -->`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -256,7 +258,8 @@ fn table_of_rules() -> String {
     format!("| this | does not go with | instead |\n|---|---|---|\n{rows}")
 }
 
-/// The links of a table, which are written as if all documents were one page in one folder, as the page needs them.
+/// The links of a table, which are written as if all documents were one page in one folder, as the page needs
+/// them.
 fn with_links(table: &str, page: &str, pages: &BTreeMap<String, String>) -> String {
     let up = "../".repeat(page.matches('/').count());
     let mut text = String::new();

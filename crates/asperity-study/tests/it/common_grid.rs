@@ -8,7 +8,8 @@ use crate::support::parsed;
 
 const STEEL: &str = "young = \"210 GPa\"\npoisson = 0.3\n";
 
-/// A case of two named surfaces, the lower one with this hardness, with these lines under `[contact]`, and further tables.
+/// A case of two named surfaces, the lower one with this hardness, with these lines under `[contact]`, and
+/// further tables.
 fn case_of(hardness: &str, contact: &str, more: &str) -> Case {
     parsed(&format!(
         "[lower]\n{STEEL}{hardness}\ntopography = {{ given = \"lower\" }}\n\

@@ -6,8 +6,8 @@ use ndarray::Array3;
 
 use crate::support::{at_rest, parsed, run, written};
 
-/// A ball of 1 mm on a flat body that yields at 1.5 GPa, or does not. Yield begins at 5.5 N, at a depth of half the contact
-/// radius, 33 µm.
+/// A ball of 1 mm on a flat body that yields at 1.5 GPa, or does not. Yield begins at 5.5 N, at a depth of
+/// half the contact radius, 33 µm.
 fn case(load: &str, plasticity: &str, rest: &str) -> Case {
     parsed(&format!(
         "[lower]\nyoung = \"210 GPa\"\npoisson = 0.3\n{plasticity}[lower.topography]\nform = \"flat\"\nshape = [24, 24]\n\
@@ -76,8 +76,8 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
     assert!(open < 1e-5 * record.approach, "{open:e}");
 }
 
-/// A stage continues from the end of the one before, in load or approach, in its own equal steps, or by default in those of
-/// the volume.
+/// A stage continues from the end of the one before, in load or approach, in its own equal steps, or by
+/// default in those of the volume.
 #[test]
 fn a_contact_that_slides_goes_on_sliding_while_its_load_is_taken_off() {
     let slides = format!("[friction]\ncoefficient = 0.2\nsliding = [3, 4]\n{VOLUME}");
@@ -126,7 +126,8 @@ fn a_depth_that_is_none_and_flow_that_leaves_the_volume_are_told() {
     assert!(!whole.contains("deepest layer") && whole.contains("more than 15 %"), "{whole}");
 }
 
-/// Below a ball that has yielded, the stress is the elastic plus the residual stress; it continues below the volume.
+/// Below a ball that has yielded, the stress is the elastic plus the residual stress; it continues below the
+/// volume.
 #[test]
 fn the_stress_below_bodies_that_flow_is_whole() {
     let folder = tempfile::tempdir().unwrap();

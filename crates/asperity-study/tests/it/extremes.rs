@@ -1,4 +1,5 @@
-//! Case files with one extreme value: an error at its line or a finite result, never a panic or an endless run.
+//! Case files with one extreme value: an error at its line or a finite result, never a panic or an endless
+//! run.
 
 use std::path::Path;
 use std::sync::Mutex;

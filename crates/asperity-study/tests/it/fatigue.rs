@@ -65,7 +65,8 @@ fn bodies_of_a_motion_tire_pass_after_pass_and_go_on_to_the_same_bits() {
     assert!(
         rows.iter().all(|row| row.over_limit > 0.1 && row.critical.critical_wear >= 0.0 && row.depth <= 4e-6)
     );
-    // The same stress, with a limit that is larger by more than the weight of the hydrostatic stress makes up for.
+    // The same stress, with a limit that is larger by more than the weight of the hydrostatic stress makes up
+    // for.
     assert!(rows[0].over_limit > rows[1].over_limit);
     // The summary has the last pass.
     assert_eq!(summary.found.fatigue, rows[4..]);
@@ -197,7 +198,8 @@ fn what_has_failed_breaks_out_and_goes_to_the_ledger() {
     let worn = state(&results, last, "wear");
     let error = most(&(before - after - worn - &pitted).mapv(f64::abs));
     assert!(error < 1e-15, "{error}");
-    // Pits are as deep as the material is tired, and no deeper than asked for but by the way to the next depth.
+    // Pits are as deep as the material is tired, and no deeper than asked for but by the way to the next
+    // depth.
     assert!(pitted.iter().all(|depth| *depth < 20.0 * 4e-6));
     // Nothing within the depth of pits is left that has failed.
     for depth in ["01", "02"] {

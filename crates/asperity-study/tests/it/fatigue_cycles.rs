@@ -13,7 +13,8 @@ use asperity_study::StaticResult;
 use crate::resume::{Whole, goes_on};
 use crate::support::{at_rest, field, most, parsed, run, written};
 
-/// Rough bodies under a load and a tangential force, both with limits; `upper` has further keys of the upper body.
+/// Rough bodies under a load and a tangential force, both with limits; `upper` has further keys of the upper
+/// body.
 fn rough(limits: &str, upper: &str, boundary: &str, tables: &str) -> String {
     format!(
         r#"
@@ -106,7 +107,8 @@ fn a_cycle_is_that_of_the_stresses_of_its_increments_one_by_one() {
     }
 }
 
-/// A ball on a flat body of the same material without Poisson's effect, whose contact is 1.3 times narrower than the grid of `cells`.
+/// A ball on a flat body of the same material without Poisson's effect, whose contact is 1.3 times narrower
+/// than the grid of `cells`.
 fn ball(cells: usize, load: &str, tables: &str) -> String {
     let (radius, pitch) = (5e-3, 2.6 * HERTZ.contact_radius() / cells as f64);
     format!(
@@ -193,7 +195,8 @@ fn a_load_that_comes_and_goes_has_half_the_range_of_the_shear() {
         let text = ball(cells, "\"1 nN\"", "[[history]]\nload = \"10 N\"\nincrements = 2\ncycles = 2");
         let result = solved(&text);
         let depth = parsed(&text).with.fatigue.as_ref().unwrap().to;
-        // From 0 to the largest shear ½(σr − σz): the ball has a radius of half the way, and there is no pressure at 0.
+        // From 0 to the largest shear ½(σr − σz): the ball has a radius of half the way, and there is no
+        // pressure at 0.
         let [radial, axial] = HERTZ.axis_stress(depth, 0.0);
         let expected = 0.25 * (radial - axial) / DangVan::new(300e6, 500e6).unwrap().limit();
         (field(&result, "over_limit_02_lower")[[cells / 2, cells / 2]] / expected - 1.0).abs()

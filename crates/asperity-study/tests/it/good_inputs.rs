@@ -226,7 +226,8 @@ fn what_is_made_takes_the_shape_and_pitch_it_lacks_from_the_other_body_as_prepar
     let low_pass = LowPass::new(20e-9, [8e-6; 2]);
     assert_eq!(made.lower.topography.heights(), low_pass.generate(&grid, 0).unwrap().heights());
 
-    // A measured surface whose pitch has more digits than its text shows, averaged, cut and turned over, on either side.
+    // A measured surface whose pitch has more digits than its text shows, averaged, cut and turned over, on
+    // either side.
     let folder = tempfile::tempdir().unwrap();
     let heights = LowPass::new(50e-9, [9e-6; 2]);
     let measured = Grid::new([60, 44], [0.123456789123e-6, 0.3e-6]).unwrap();

@@ -55,7 +55,8 @@ fn a_case_slides_and_goes_on_after_an_interruption_with_the_same_bits() {
     assert_eq!(at_rest(&case).updates, updates);
 }
 
-/// Bodies that attract each other, and rubber that creeps, go on from what they remember of their last contact.
+/// Bodies that attract each other, and rubber that creeps, go on from what they remember of their last
+/// contact.
 #[test]
 fn bodies_that_remember_their_contact_slide_on_with_the_same_bits() {
     let sticky = format!("{CASE}[adhesion]\nwork = \"1 J/m2\"\nrange = \"40 nm\"\n");

@@ -77,7 +77,8 @@ fn a_pass_that_wears_more_than_the_body_is_long_ends_the_run() {
     }
 }
 
-/// Twenty micrometres in a pass on cells of 8 µm: the pressures at its end have no solution worth searching for.
+/// Twenty micrometres in a pass on cells of 8 µm: the pressures at its end have no solution worth searching
+/// for.
 #[test]
 fn a_pass_that_wears_more_than_a_cell_is_wide_ends_the_run_at_once() {
     let folder = tempfile::tempdir().unwrap();

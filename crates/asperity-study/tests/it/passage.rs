@@ -141,7 +141,8 @@ fn agrees(name: &str, case: &Case, contacts: usize, results: &Results) {
         assert!(thermal.kind == Kind::Thermal && thermal.conductance.unwrap() > 0.0, "{name}: {row:?}");
         assert!((row.spot_share + row.gas_share - 1.0).abs() < 1e-9, "{name}: {row:?}");
         assert!(near(row.power.unwrap(), 10.0 * thermal.conductance.unwrap(), 1e-12));
-        // The joint is what is in series with the spreading from the outline of the contact, at every position.
+        // The joint is what is in series with the spreading from the outline of the contact, at every
+        // position.
         let area = row.load / row.mean_pressure;
         match (thermal.resistance_full, thermal.joint_conductance) {
             (_, None) => assert_eq!(case.contact.boundary, Boundary::FREE, "{name}"),

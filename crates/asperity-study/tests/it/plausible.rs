@@ -1,4 +1,5 @@
-//! Warnings about values beside the quantities that give them their size: a slip of a factor of 1000 is told, and what people compute is not.
+//! Warnings about values beside the quantities that give them their size: a slip of a factor of 1000 is told,
+//! and what people compute is not.
 
 use asperity_study::{SurfaceInput, bodies, estimate};
 

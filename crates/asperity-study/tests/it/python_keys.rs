@@ -1,4 +1,5 @@
-//! `python/asperity/keys.py`: the types of the tables that Python's arguments take, made from the declarations of their keys.
+//! `python/asperity/keys.py`: the types of the tables that Python's arguments take, made from the
+//! declarations of their keys.
 
 mod errors;
 mod numbers;
@@ -33,7 +34,8 @@ Boundary = Literal["free", "periodic"]
 """Boundary of the grid."""
 "#;
 
-/// A class: its name, its tables, those of their keys that it has (all if none is named), and what its documentation says.
+/// A class: its name, its tables, those of their keys that it has (all if none is named), and what its
+/// documentation says.
 type Class = (&'static str, &'static [&'static str], &'static [&'static str], &'static str);
 
 const CLASSES: &[Class] = &[
@@ -91,7 +93,8 @@ const CLASSES: &[Class] = &[
     ),
 ];
 
-/// Keywords of a function in Python: the name of their class, its base, what its documentation says, and where they come from.
+/// Keywords of a function in Python: the name of their class, its base, what its documentation says, and
+/// where they come from.
 type Keywords = (&'static str, &'static str, &'static str, &'static [Source]);
 
 /// A table, and those of its keys that are keywords.
@@ -233,7 +236,8 @@ fn without_place(meaning: &str) -> &str {
     meaning.split(", see [").next().unwrap_or(meaning)
 }
 
-/// A class with keywords, each with its type, its table and its meaning. Those that a call must have are in a base class.
+/// A class with keywords, each with its type, its table and its meaning. Those that a call must have are in a
+/// base class.
 fn keywords((name, base, about, sources): &Keywords) -> String {
     let (mut fields, mut required) = (String::new(), String::new());
     for (table, which) in *sources {

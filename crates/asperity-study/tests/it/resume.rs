@@ -1,4 +1,5 @@
-//! Runs that are stopped and go on, or begin from the surfaces of a pass, for each kind of course and of state.
+//! Runs that are stopped and go on, or begin from the surfaces of a pass, for each kind of course and of
+//! state.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -21,12 +22,12 @@ pub(crate) struct Whole {
     _folder: TempDir,
 }
 
-/// Runs a case on one thread without a stop, and on two threads with stops after some or all of its steps, which leaves the
-/// same files.
+/// Runs a case on one thread without a stop, and on two threads with stops after some or all of its steps,
+/// which leaves the same files.
 ///
-/// After each stop the case goes on by a step. Then its tables and its state become those of the stop again, as if it had been
-/// killed after the state of the step was written and before its rows were. It goes on from there to its end, and once more
-/// from its end.
+/// After each stop the case goes on by a step. Then its tables and its state become those of the stop again,
+/// as if it had been killed after the state of the step was written and before its rows were. It goes on from
+/// there to its end, and once more from its end.
 #[track_caller]
 pub(crate) fn goes_on(case: &Case) -> Whole {
     let folder = tempfile::tempdir().unwrap();

@@ -68,7 +68,8 @@ pub(crate) fn on_threads<R: Send>(threads: usize, task: impl FnOnce() -> R + Sen
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(task)
 }
 
-/// Counts what is solved: points of a sweep, increments of a loading, updates or positions; stops after some of it.
+/// Counts what is solved: points of a sweep, increments of a loading, updates or positions; stops after some
+/// of it.
 pub(crate) struct StopAfter {
     most: usize,
     solved: AtomicUsize,

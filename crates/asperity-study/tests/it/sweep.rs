@@ -1,4 +1,5 @@
-//! A load sweep of a static contact: each point is an independent contact, and its stiffness is the slope of the curve.
+//! A load sweep of a static contact: each point is an independent contact, and its stiffness is the slope of
+//! the curve.
 
 use std::fs;
 

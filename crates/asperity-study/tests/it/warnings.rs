@@ -1,5 +1,5 @@
-//! Warnings of a run outside the validity of its model, on both sides of each threshold. Random contacts are compared with
-//! the same contact on a sufficiently large grid, and with Hertz.
+//! Warnings of a run outside the validity of its model, on both sides of each threshold. Random contacts are
+//! compared with the same contact on a sufficiently large grid, and with Hertz.
 
 use std::f64::consts::PI;
 
@@ -220,8 +220,9 @@ fn a_ball_that_passes_over_a_plane_is_told_of_by_hertz() {
 
 /// Balls, ellipsoids, cones and cylinders on grids of various shapes with both boundaries.
 ///
-/// There is a warning if the boundary changes the largest pressure by more than 5 %, and none if pressure and approach are
-/// accurate to 1 %. The reference is the contact on a grid twice as long and wide, itself compared with Hertz.
+/// There is a warning if the boundary changes the largest pressure by more than 5 %, and none if pressure and
+/// approach are accurate to 1 %. The reference is the contact on a grid twice as long and wide, itself
+/// compared with Hertz.
 #[test]
 fn a_warning_stands_where_the_rim_changes_the_contact_and_nowhere_else() {
     random_rims(1, 40);

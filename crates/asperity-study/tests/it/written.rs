@@ -211,7 +211,8 @@ approach = "-3 nm"
 coefficient = 0.1
 "#;
 
-/// Unknown numbers are empty cells in tables and `null` in the summary; forces without contact are 0, never −0.
+/// Unknown numbers are empty cells in tables and `null` in the summary; forces without contact are 0, never
+/// −0.
 #[test]
 fn a_number_that_is_not_known_is_an_empty_cell_that_reads_back() {
     let folder = tempfile::tempdir().unwrap();

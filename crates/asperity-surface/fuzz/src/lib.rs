@@ -1,7 +1,7 @@
 //! What the fuzz targets do: each makes a file of one format of any bytes, reads it, and checks what is read.
 //!
-//! A file of a corpus need not be one of the format: what the format begins with, and what a mutation would hardly find
-//! (archives, compression, lengths), is put around it here.
+//! A file of a corpus need not be one of the format: what the format begins with, and what a mutation would
+//! hardly find (archives, compression, lengths), is put around it here.
 
 use std::io::{Cursor, Write};
 use std::path::PathBuf;
@@ -388,7 +388,8 @@ fn check_written(scan: &Scan) {
     assert_eq!(again("sdf"), Some(grid.pitch));
     assert_eq!(again("x3p"), Some(grid.pitch));
     let pitch = again("gwy");
-    // The format has the lengths of the sides instead: rounded, and beyond the range of numbers for pitches near its end.
+    // The format has the lengths of the sides instead: rounded, and beyond the range of numbers for pitches
+    // near its end.
     if grid.pitch.iter().all(|pitch| (1e-300..1e+290).contains(pitch)) {
         for (found, expected) in pitch.expect("a pitch").iter().zip(grid.pitch) {
             assert!(

@@ -1,9 +1,10 @@
 //! AL3D: focus variation microscopes of Alicona; read only.
 //!
-//! The file starts with `AliconaImaging`, a zero, CR LF, then tags of 52 bytes: name (20), value as text (30), CR LF. The
-//! second tag, `TagCount`, is the number of the following ones. The heights are at `DepthImageOffset`: `Rows` of `Cols`
-//! f32, little-endian, in metres, each row padded to a multiple of 8 bytes. Heights equal to `InvalidPixelValue` are
-//! missing. The pitch is `PixelSizeXMeter`, `PixelSizeYMeter`.
+//! The file starts with `AliconaImaging`, a zero, CR LF, then tags of 52 bytes: name (20), value as text
+//! (30), CR LF. The second tag, `TagCount`, is the number of the following ones. The heights are at
+//! `DepthImageOffset`: `Rows` of `Cols` f32, little-endian, in metres, each row padded to a multiple of 8
+//! bytes. Heights equal to `InvalidPixelValue` are missing. The pitch is `PixelSizeXMeter`,
+//! `PixelSizeYMeter`.
 
 use std::collections::HashMap;
 use std::str::FromStr;

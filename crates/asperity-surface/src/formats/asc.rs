@@ -1,9 +1,9 @@
 //! ASC: ASCII grid of ESRI; read only.
 //!
-//! Format: "Esri ASCII raster format" in the documentation of ArcGIS. Lines of a name and a number, in any case and order:
-//! `ncols`, `nrows`, the corner or the centre of the first cell, `cellsize` (or `dx` and `dy`, as GDAL writes them), and
-//! `NODATA_value`, which is −9999 if it is absent. Then come the heights in any number of lines, x fastest, the first at the
-//! largest y. There is no unit.
+//! Format: "Esri ASCII raster format" in the documentation of ArcGIS. Lines of a name and a number, in any
+//! case and order: `ncols`, `nrows`, the corner or the centre of the first cell, `cellsize` (or `dx` and
+//! `dy`, as GDAL writes them), and `NODATA_value`, which is −9999 if it is absent. Then come the heights in
+//! any number of lines, x fastest, the first at the largest y. There is no unit.
 
 use super::binary::shape;
 use super::numbers::{Separator, value};

@@ -1,9 +1,9 @@
 //! BCR-STM and BCRF: SPIP and other scanning probe software; read only.
 //!
-//! The header has 2048 characters in ASCII, or in UTF-16 (`_unicode` in the first line), with lines `name = value`. The
-//! heights follow, x fastest: i16 (`bcrstm`) or f32 (`bcrf`), little-endian unless `intelmode = 0`. A height is a number
-//! times `bit2nm` in `zunit`. Lengths are in `xunit` and `yunit`; without a unit they are in nm. 32767, or a float beyond
-//! 10³⁸, is a missing height.
+//! The header has 2048 characters in ASCII, or in UTF-16 (`_unicode` in the first line), with lines
+//! `name = value`. The heights follow, x fastest: i16 (`bcrstm`) or f32 (`bcrf`), little-endian unless
+//! `intelmode = 0`. A height is a number times `bit2nm` in `zunit`. Lengths are in `xunit` and `yunit`;
+//! without a unit they are in nm. 32767, or a float beyond 10³⁸, is a missing height.
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
 use super::header::Header;

@@ -1,10 +1,10 @@
 //! CSV: a table of x, y and heights, or of x and heights, below a line of names; read only.
 //!
-//! The names of the first two columns begin with x and y, or the table is a profile, whose first column begins with x or is a
-//! distance or position. Each further column is a channel. A name may end with a unit of length, as in `x [µm]` or
-//! `height (nm)`; without one it is m. x and y form a regular grid, in any order, and missing points are missing heights.
-//! Separators and other rules for text are described in [`text`](super::text). A line of names below other words is found by
-//! [`preamble`](super::preamble).
+//! The names of the first two columns begin with x and y, or the table is a profile, whose first column
+//! begins with x or is a distance or position. Each further column is a channel. A name may end with a unit
+//! of length, as in `x [µm]` or `height (nm)`; without one it is m. x and y form a regular grid, in any
+//! order, and missing points are missing heights. Separators and other rules for text are described in
+//! [`text`](super::text). A line of names below other words is found by [`preamble`](super::preamble).
 
 use super::numbers::{Part, Separator, fields, matrix, value};
 use super::points::{Raster, profile, raster};

@@ -78,7 +78,8 @@ pub(super) fn paths_of_matrices(file: &File) -> Vec<String> {
 
 /// Adds the paths of the matrices of real numbers in a group and in its subgroups.
 fn matrices(group: &Group, path: &str, visited: &mut usize, found: &mut Vec<String>) {
-    /// Limit on visited groups, found matrices and the length of a path, because groups may contain each other.
+    /// Limit on visited groups, found matrices and the length of a path, because groups may contain each
+    /// other.
     const MAX_ENTRIES: usize = 1 << 12;
     *visited += 1;
     let mut names = group.datasets().unwrap_or_default();

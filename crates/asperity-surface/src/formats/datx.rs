@@ -1,10 +1,11 @@
 //! DATX: interferometers of Zygo (Mx), HDF5; read only.
 //!
-//! Heights are the data sets in the group `/Data/Surface`, or else `/Measurement/Surface`: lines along x, the first one at y = 0. Their attribute
-//! `Unit` is a length, such as `NanoMeters`, or `Fringes`: times the wavelength, the interferometric scale factor (waves per fringe, 1/2 if absent)
-//! and the obliquity factor (1 if absent). These numbers, of which each may be an array of one, stand beside it, or under other names, with the
-//! pitch, among the attributes of the measurement. A height from the attribute `No Data` on is missing. The converters of X, Y and Z,
-//! which have the same numbers in a compound, are not read.
+//! Heights are the data sets in the group `/Data/Surface`, or else `/Measurement/Surface`: lines along x, the
+//! first one at y = 0. Their attribute `Unit` is a length, such as `NanoMeters`, or `Fringes`: times the
+//! wavelength, the interferometric scale factor (waves per fringe, 1/2 if absent) and the obliquity factor (1
+//! if absent). These numbers, of which each may be an array of one, stand beside it, or under other names,
+//! with the pitch, among the attributes of the measurement. A height from the attribute `No Data` on is
+//! missing. The converters of X, Y and Z, which have the same numbers in a compound, are not read.
 
 use std::collections::HashMap;
 

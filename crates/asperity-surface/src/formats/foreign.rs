@@ -34,7 +34,8 @@ const KEYENCE: Foreign = Foreign::exported(
 const OLYMPUS: Foreign = Foreign::exported("it is a file of an Olympus microscope (oir, poir)", GWYDDION);
 const WITHOUT_TIFF: Foreign = Foreign::of("it is TIFF, and the feature `tiff` is left out");
 
-/// First bytes of kinds of files. Formats that are read come first: a kind here is an unsupported version, or another one.
+/// First bytes of kinds of files. Formats that are read come first: a kind here is an unsupported version, or
+/// another one.
 const BY_START: &[(&[u8], Foreign)] = &[
     (b"FRTM_GLIDER", Foreign::of("it is an FRT file of another version than 1.00")),
     (b"Binary TrueMap Data File", Foreign::of("it is a TrueMap file of another version than 2.0")),

@@ -1,7 +1,7 @@
 //! FRT: MicroProf and other profilometers of FRT; read only.
 //!
-//! Little-endian. The file contains `FRTM_GLIDERV1.00`, the number of blocks (u16), and the blocks: type u16, size u32,
-//! content.
+//! Little-endian. The file contains `FRTM_GLIDERV1.00`, the number of blocks (u16), and the blocks: type u16,
+//! size u32, content.
 //!
 //! ```text
 //! 0x66  sizes along x and y, bits per height, 3 u32    0x0b  heights
@@ -9,9 +9,9 @@
 //! 0x6c  u32, metres in a unit of the heights f64             kind, sizes along x and y, bits, 4 u32, and numbers
 //! ```
 //!
-//! Heights are u16 or i32, x fastest, from the last y to the first: the bottom line of the image is first, in other formats
-//! the top one. 1 is a missing height. Channels are the block 0x0b or, without it, the images of a topography (kind 4), and
-//! images of a thickness (0x80).
+//! Heights are u16 or i32, x fastest, from the last y to the first: the bottom line of the image is first, in
+//! other formats the top one. 1 is a missing height. Channels are the block 0x0b or, without it, the images
+//! of a topography (kind 4), and images of a thickness (0x80).
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
 use super::{Decoded, Fault, LengthUnit, Scan, choose, distinct, from_last_y_to_first, usable_pitch};

@@ -1,8 +1,9 @@
 //! GSF: Gwyddion Simple Field; read only.
 //!
-//! Format: "Gwyddion Simple Field" in Gwyddion's user guide. A line, then lines of names and values, padded by zeros to a
-//! multiple of four bytes; then `XRes` × `YRes` little-endian floating-point numbers of 32 bits, x fastest, the first line at
-//! the largest y. NaN is a missing height. `XReal` and `YReal` are the extent, in `XYUnits`; heights are in `ZUnits`.
+//! Format: "Gwyddion Simple Field" in Gwyddion's user guide. A line, then lines of names and values, padded
+//! by zeros to a multiple of four bytes; then `XRes` × `YRes` little-endian floating-point numbers of 32
+//! bits, x fastest, the first line at the largest y. NaN is a missing height. `XReal` and `YReal` are the
+//! extent, in `XYUnits`; heights are in `ZUnits`.
 
 use super::binary::{Number, Order, Raster, shape};
 use super::header::Header;

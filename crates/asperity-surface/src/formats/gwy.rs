@@ -1,12 +1,14 @@
 //! GWY: the native files of Gwyddion 2.
 //!
-//! Format: "Gwyddion native format (GWY)" in Gwyddion's user guide. `GWYP` is followed by one object, all little-endian. An
-//! object is its name, the size of its content (u32), and the content: components with a name, a letter for the type, and a
-//! value. Texts and names end with a zero. An array (a capital letter) starts with the number of its elements (u32).
+//! Format: "Gwyddion native format (GWY)" in Gwyddion's user guide. `GWYP` is followed by one object, all
+//! little-endian. An object is its name, the size of its content (u32), and the content: components with a
+//! name, a letter for the type, and a value. Texts and names end with a zero. An array (a capital letter)
+//! starts with the number of its elements (u32).
 //!
-//! The object is a container. Its component `/0/data` is a `GwyDataField`, x fastest, and `/0/data/title` its name; further
-//! channels have other numbers. Channels are read if their values are lengths. The format has no missing heights. A height
-//! is missing where `/0/mask` is positive, because programs that import measurements mark missing heights so.
+//! The object is a container. Its component `/0/data` is a `GwyDataField`, x fastest, and `/0/data/title` its
+//! name; further channels have other numbers. Channels are read if their values are lengths. The format has
+//! no missing heights. A height is missing where `/0/mask` is positive, because programs that import
+//! measurements mark missing heights so.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -18,7 +20,8 @@ use asperity_base::error::{Defect, Result};
 use asperity_base::grid::{Field, Grid};
 use asperity_base::io::atomic;
 
-/// Writes `heights` on `grid` to `path` as the channel `height`, atomically. NaN is masked, and replaced by the mean.
+/// Writes `heights` on `grid` to `path` as the channel `height`, atomically. NaN is masked, and replaced by
+/// the mean.
 ///
 /// # Errors
 /// [`Error::File`](asperity_base::Error::File).

@@ -1,9 +1,10 @@
 //! HDF5: fields of asperity's results, and any matrix of numbers; read only.
 //!
-//! Results are identified by the file attributes `version` and `identity`, files of Zygo by their groups, see [`datx`]. Their channels are the fields in metres over x
-//! and y, with `lower` and `upper` first. In other files every data set with two dimensions and real numbers is a channel,
-//! named by its path, `/group/name`, and indexed `[ix, iy]`. If there are several, the user must choose one. Its heights
-//! are in metres unless it has an attribute `unit` or `units`. A height is missing if it equals the attribute `_FillValue` or
+//! Results are identified by the file attributes `version` and `identity`, files of Zygo by their groups, see
+//! [`datx`]. Their channels are the fields in metres over x and y, with `lower` and `upper` first. In other
+//! files every data set with two dimensions and real numbers is a channel, named by its path, `/group/name`,
+//! and indexed `[ix, iy]`. If there are several, the user must choose one. Its heights are in metres unless
+//! it has an attribute `unit` or `units`. A height is missing if it equals the attribute `_FillValue` or
 //! `missing_value`. It has no pitch.
 
 use hdf5_pure::{AttrValue, Dataset, File};

@@ -1,8 +1,8 @@
-//! IBW: binary waves of Igor Pro, versions 2 and 5, as written by the atomic force microscopes of Asylum Research; read
-//! only.
+//! IBW: binary waves of Igor Pro, versions 2 and 5, as written by the atomic force microscopes of Asylum
+//! Research; read only.
 //!
-//! Format: WaveMetrics, Technical Note 3. The version (i16) also determines the byte order. The i16 numbers of both headers
-//! sum to 0.
+//! Format: WaveMetrics, Technical Note 3. The version (i16) also determines the byte order. The i16 numbers
+//! of both headers sum to 0.
 //!
 //! ```text
 //! version 2: 0 i16 2, then 3 sizes i32             version 5: 0 i16 5, i16, 11 sizes i32: wave, formula, note, units of
@@ -13,9 +13,9 @@
 //!   126 numbers                                        + 320 numbers, the first dimension fastest, those with a size
 //! ```
 //!
-//! The first dimension is x, the second y, upwards, and the third the channels, named by the labels of that dimension. A
-//! wave with one dimension is a profile. If a microscope wrote a note, the unit of a channel follows from its name, because
-//! the unit of the wave is the same for all channels.
+//! The first dimension is x, the second y, upwards, and the third the channels, named by the labels of that
+//! dimension. A wave with one dimension is a profile. If a microscope wrote a note, the unit of a channel
+//! follows from its name, because the unit of the wave is the same for all channels.
 
 use std::collections::HashMap;
 

@@ -10,7 +10,8 @@ use asperity_base::grid::Field;
 /// Lines of numbers, indexed `[line, column]`, without the labels.
 pub(super) struct Unlabelled {
     pub(super) matrix: Field,
-    /// Distance of the labels along a line and from line to line, in their unit; none if they count the samples.
+    /// Distance of the labels along a line and from line to line, in their unit; none if they count the
+    /// samples.
     pub(super) pitch: Option<[f64; 2]>,
     pub(super) had_labels: bool,
 }

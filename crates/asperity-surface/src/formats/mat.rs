@@ -1,13 +1,14 @@
 //! MAT: variables of MATLAB, version 5 (`save -v6` and `-v7`) and 7.3; read only.
 //!
-//! Format: "MAT-File Format" by MathWorks. A header of 128 bytes ends with the version and the byte order. Data elements
-//! follow: kind, number of bytes, content, padded to eight bytes. Small ones share their first eight bytes with the content. A
-//! variable is an element `miMATRIX`, possibly compressed by zlib: flags with its class, dimensions, name and numbers, whose
-//! storage may be narrower than the class. Version 7.3 is HDF5 behind a block of 512 bytes, with the dimensions reversed.
+//! Format: "MAT-File Format" by MathWorks. A header of 128 bytes ends with the version and the byte order.
+//! Data elements follow: kind, number of bytes, content, padded to eight bytes. Small ones share their first
+//! eight bytes with the content. A variable is an element `miMATRIX`, possibly compressed by zlib: flags with
+//! its class, dimensions, name and numbers, whose storage may be narrower than the class. Version 7.3 is HDF5
+//! behind a block of 512 bytes, with the dimensions reversed.
 //!
-//! Each matrix of real numbers is a channel, indexed `[ix, iy]` in metres: its rows are ix. Scalars are left out, and so are
-//! vectors beside a matrix, logical, complex and sparse arrays, text and structures. If there are several, the user must
-//! choose one. There is no pitch.
+//! Each matrix of real numbers is a channel, indexed `[ix, iy]` in metres: its rows are ix. Scalars are left
+//! out, and so are vectors beside a matrix, logical, complex and sparse arrays, text and structures. If there
+//! are several, the user must choose one. There is no pitch.
 
 use std::io::Read;
 
@@ -136,7 +137,8 @@ fn variables(bytes: &[u8]) -> Outcome<(Vec<Variable<'_>>, Vec<String>)> {
 }
 
 impl<'a> Variable<'a> {
-    /// Reads what stands before the numbers; the name and the kind of a variable that is no matrix or vector of real numbers.
+    /// Reads what stands before the numbers; the name and the kind of a variable that is no matrix or vector
+    /// of real numbers.
     fn of(content: Content<'a>, order: Order) -> Outcome<Result<Self, String>> {
         let start = content.start(MAX_HEADER)?;
         let mut cursor = Cursor::new(&start, order, "a variable");

@@ -1,6 +1,7 @@
 //! MetroPro `.dat`: interferometers of Zygo; read only.
 //!
-//! Format: "MetroPro Reference Guide" (OMP-0347), binary data format. Big-endian. The header has 834 or 4096 bytes:
+//! Format: "MetroPro Reference Guide" (OMP-0347), binary data format. Big-endian. The header has 834 or 4096
+//! bytes:
 //!
 //! ```text
 //! 6   bytes of the header i32      72  bytes of the phases i32              180 magnification f32
@@ -8,8 +9,8 @@
 //! 68  sizes along x and y 2 u16    176 obliquity O f32                      218 resolution R i16: 0, 1, 2
 //! ```
 //!
-//! The intensities follow, then the phases, i32, x fastest. A height is phase · S λ O / R with R = 4096, 32768 or 131072
-//! for 0, 1, 2. It is missing if the phase is 2147483640 or more.
+//! The intensities follow, then the phases, i32, x fastest. A height is phase · S λ O / R with R = 4096,
+//! 32768 or 131072 for 0, 1, 2. It is missing if the phase is 2147483640 or more.
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
 use super::{Decoded, only};

@@ -1,7 +1,8 @@
 //! MI: atomic force microscopes of Molecular Imaging, later Agilent and Keysight (PicoView); read only.
 //!
-//! The header has lines of a name of 14 characters and a value, from `fileType` to `data`. The numbers of all channels
-//! follow without gaps, little-endian, x fastest, from the last y to the first. `bufferLabel` begins a channel:
+//! The header has lines of a name of 14 characters and a value, from `fileType` to `data`. The numbers of all
+//! channels follow without gaps, little-endian, x fastest, from the last y to the first. `bufferLabel` begins
+//! a channel:
 //!
 //! ```text
 //! xPixels       256          bufferLabel   Topography
@@ -9,8 +10,8 @@
 //! data          BINARY_32    bufferRange   1.7
 //! ```
 //!
-//! Lengths along x and y are in metres. Numbers are i16 (`BINARY`) or i32 (`BINARY_32`). The first number beyond the
-//! largest represents `bufferRange`.
+//! Lengths along x and y are in metres. Numbers are i16 (`BINARY`) or i32 (`BINARY_32`). The first number
+//! beyond the largest represents `bufferRange`.
 
 use super::binary::{Number, Order, Raster, shape, text};
 use super::header::Header;

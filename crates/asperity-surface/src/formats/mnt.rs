@@ -1,9 +1,9 @@
 //! MNT: documents of Digital Surf's Mountains; read only.
 //!
-//! The file is a compound file (OLE). Its stream `ScopedContents` has 8 bytes and a tree of entries: tag u16, size u64,
-//! content, little-endian. Entries of the list of objects are preceded by 8 bytes. An object is its class (1 → 1, u32) and
-//! its body (2). An object of class 9012 that contains one of class 9062 is a measured surface. Derived surfaces are not in
-//! the file. These tags lead from the body of the surface to its parts:
+//! The file is a compound file (OLE). Its stream `ScopedContents` has 8 bytes and a tree of entries: tag u16,
+//! size u64, content, little-endian. Entries of the list of objects are preceded by 8 bytes. An object is its
+//! class (1 → 1, u32) and its body (2). An object of class 9012 that contains one of class 9062 is a measured
+//! surface. Derived surfaces are not in the file. These tags lead from the body of the surface to its parts:
 //!
 //! ```text
 //! ffff → ffff → 1 → ffff → 1     number of columns u32, of rows 2 → ffff → 1; their scales beside it: ffff
@@ -12,8 +12,8 @@
 //! ffff → ffff → 3 → 2            mask: columns (1), rows (2), blocks with a rim of one (5 → 2), u8, 9 where measured
 //! ```
 //!
-//! Blocks consist of the total size u64 and, for each block, its first element u64, its number of elements u32, its number
-//! of bytes u32 and these bytes, a zlib stream. Text is 4 and UTF-16.
+//! Blocks consist of the total size u64 and, for each block, its first element u64, its number of elements
+//! u32, its number of bytes u32 and these bytes, a zlib stream. Text is 4 and UTF-16.
 
 use std::io::{Cursor, Read};
 

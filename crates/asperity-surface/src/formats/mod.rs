@@ -1,8 +1,8 @@
-//! Topography files, with one module per format. The format is recognised by the content when reading, and by the file
-//! extension when writing.
+//! Topography files, with one module per format. The format is recognised by the content when reading, and by
+//! the file extension when writing.
 //!
-//! For any content a reader returns a [`Scan`] or an error. It compares the sizes in a header with the existing data before
-//! it allocates memory, and decompresses no more than the header specifies.
+//! For any content a reader returns a [`Scan`] or an error. It compares the sizes in a header with the
+//! existing data before it allocates memory, and decompresses no more than the header specifies.
 
 mod binary;
 mod foreign;
@@ -73,8 +73,8 @@ use foreign::Foreign;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Scan {
-    /// Name of the module of the format, such as `x3p`; for text `text` (a matrix), `xyz` (a table of x, y, height), `xz` (a
-    /// profile of x and height) or the program that wrote its header.
+    /// Name of the module of the format, such as `x3p`; for text `text` (a matrix), `xyz` (a table of x, y,
+    /// height), `xz` (a profile of x and height) or the program that wrote its header.
     pub format: &'static str,
     /// The channel read.
     pub channel: String,
@@ -86,7 +86,8 @@ pub struct Scan {
     pub heights: Field,
     /// Information in the file about the unit of its numbers.
     pub unit: LengthUnit,
-    /// Direction along which a line of the matrix in the file was laid; none if the format or the file determines it.
+    /// Direction along which a line of the matrix in the file was laid; none if the format or the file
+    /// determines it.
     pub lines: Option<Axis>,
 }
 
@@ -123,8 +124,9 @@ pub struct ReadOptions {
     pub unit: Option<Metre>,
     /// Distance between neighbouring heights along x and y for a file without a pitch, each above 0.
     pub pitch: Option<[Metre; 2]>,
-    /// Direction of a line of a matrix whose format does not determine it: x by default for text, y for arrays (npy, npz,
-    /// mat, HDF5), which are indexed `[ix, iy]`. A text that looks like points is a matrix if this is given.
+    /// Direction of a line of a matrix whose format does not determine it: x by default for text, y for
+    /// arrays (npy, npz, mat, HDF5), which are indexed `[ix, iy]`. A text that looks like points is a matrix
+    /// if this is given.
     pub lines: Option<Axis>,
     /// Number of lines above the numbers of a text.
     pub skip: usize,
@@ -169,7 +171,8 @@ impl ReadOptions {
     /// Reads the topography in the file at `path`.
     ///
     /// # Errors
-    /// The errors of [`scan`](Self::scan), and [`Error::NoPitch`] if neither the file nor these options have a pitch.
+    /// The errors of [`scan`](Self::scan), and [`Error::NoPitch`] if neither the file nor these options have
+    /// a pitch.
     pub fn read(&self, path: impl AsRef<Path>) -> Result<Topography> {
         let path = path.as_ref();
         let Scan { format, pitch, heights, .. } = self.scan(path)?;
@@ -182,9 +185,9 @@ impl ReadOptions {
     ///
     /// # Errors
     /// [`Error::File`] if it cannot be read, [`Error::NotATopography`] if its format is unknown,
-    /// [`Error::CorruptTopography`] if it is damaged, uses an unsupported part of the format or lacks a required unit,
-    /// [`Error::NoChannel`], [`Error::OwnUnit`] if a unit is given for a file that has one, [`Error::OptionOfText`] if `lines`
-    /// or `skip` is given for a format that leaves nothing open.
+    /// [`Error::CorruptTopography`] if it is damaged, uses an unsupported part of the format or lacks a
+    /// required unit, [`Error::NoChannel`], [`Error::OwnUnit`] if a unit is given for a file that has one,
+    /// [`Error::OptionOfText`] if `lines` or `skip` is given for a format that leaves nothing open.
     pub fn scan(&self, path: impl AsRef<Path>) -> Result<Scan> {
         let path = path.as_ref();
         self.scan_bytes(path, &contents(path)?)
@@ -203,7 +206,8 @@ impl ReadOptions {
 }
 
 impl Topography {
-    /// Reads the topography in the file at `path`, of any format. Use [`ReadOptions`] for values that the file lacks.
+    /// Reads the topography in the file at `path`, of any format. Use [`ReadOptions`] for values that the
+    /// file lacks.
     ///
     /// # Errors
     /// The errors of [`ReadOptions::read`].
@@ -363,7 +367,8 @@ fn decode_archive(bytes: &[u8], channel: Option<&str>) -> Decoded {
     if npz::is_one(bytes) { npz::decode(bytes, channel) } else { x3p::decode(bytes, channel) }
 }
 
-/// Decodes text without a byte order mark. After skipped lines it is a matrix or a table, whatever the lines say.
+/// Decodes text without a byte order mark. After skipped lines it is a matrix or a table, whatever the lines
+/// say.
 fn decode_text(text: &str, options: &ReadOptions) -> Decoded {
     let channel = options.channel.as_deref();
     if options.skip == 0
@@ -538,11 +543,11 @@ fn finite(height: Metre) -> Metre {
     if height.is_finite() { height } else { f64::NAN }
 }
 
-/// Creates heights stored with x fastest, as by almost every instrument. `heights` writes consecutive ones from an index
-/// on.
+/// Creates heights stored with x fastest, as by almost every instrument. `heights` writes consecutive ones
+/// from an index on.
 fn x_fastest(shape: [usize; 2], heights: impl Fn(usize, &mut [f64])) -> Field {
-    // One tile at a time, which stays in the first-level cache while it is transposed; partly filled columns are completed
-    // first.
+    // One tile at a time, which stays in the first-level cache while it is transposed; partly filled columns
+    // are completed first.
     /// Side of a tile.
     const TILE: usize = 32;
     let [nx, ny] = shape;

@@ -1,16 +1,16 @@
 //! NanoScope: atomic force microscopes of Digital Instruments, Veeco and Bruker; read only.
 //!
-//! The header has lines `\name: value` in parts that begin with `\*name`, from `\*File list` to `\*File list end`. Then, at
-//! the places given in the header, come images of little-endian integers, x fastest, from the last y to the first. Each
-//! `\*… image list` is a channel. The unit of an image is
+//! The header has lines `\name: value` in parts that begin with `\*name`, from `\*File list` to
+//! `\*File list end`. Then, at the places given in the header, come images of little-endian integers, x
+//! fastest, from the last y to the first. Each `\*… image list` is a channel. The unit of an image is
 //!
 //! ```text
 //! \@2:Z scale: V [Sens. Zsens] (0.005 V/LSB) 330 V     330 V / 256ᵇ, b the Bytes/pixel, 2 or 4
 //! \@Sens. Zsens: V 34.5 nm/V                           times 34.5 nm/V
 //! ```
 //!
-//! Channels are heights if their sensitivity is a length per volt, or per unit of the scale. From version 9.2 on the
-//! integers have 32 bits, whatever `Bytes/pixel` is. `~m` is µm.
+//! Channels are heights if their sensitivity is a length per volt, or per unit of the scale. From version 9.2
+//! on the integers have 32 bits, whatever `Bytes/pixel` is. `~m` is µm.
 
 use std::collections::HashMap;
 
@@ -146,7 +146,8 @@ impl Part<'_> {
             let (first, last) = (numbers.first()?, numbers.last()?);
             Some([first * unit, last * unit])
         };
-        // If the length of the slow axis is given for the whole scan, the second length of the image may be wrong.
+        // If the length of the slow axis is given for the whole scan, the second length of the image may be
+        // wrong.
         let slow = common.get("slow axis size").zip(common.get("scan size"));
         if let Some((slow, fast)) = slow
             && let (Some([y, _]), Some([x, _])) = (lengths(slow), lengths(fast))

@@ -1,13 +1,12 @@
 //! NetCDF 3, classic and with 64-bit offsets; read only.
 //!
-//! Format: Unidata, "NetCDF Classic Format Specification"; big-endian. Variables with two dimensions and real numbers are
-//! channels unless their `unit` (or `units`) is not a length. `scale_factor`, `add_offset`, `_FillValue` and
-//! `missing_value` are applied; without `_FillValue` the number of the format for values that were never written is missing.
-//! A height is missing where a variable `mask` is not 0. The pitch is that of the variables
-//! named like the dimensions: their attribute `length` over their number, or the spacing of their values, in their unit;
-//! values that fall reverse the order.
-//! Lines run along x if the first dimension is `y` (or `lat`) or the second is `x` (or `lon`); otherwise they run along y,
-//! as in NumPy.
+//! Format: Unidata, "NetCDF Classic Format Specification"; big-endian. Variables with two dimensions and real
+//! numbers are channels unless their `unit` (or `units`) is not a length. `scale_factor`, `add_offset`,
+//! `_FillValue` and `missing_value` are applied; without `_FillValue` the number of the format for values
+//! that were never written is missing. A height is missing where a variable `mask` is not 0. The pitch is
+//! that of the variables named like the dimensions: their attribute `length` over their number, or the
+//! spacing of their values, in their unit; values that fall reverse the order. Lines run along x if the first
+//! dimension is `y` (or `lat`) or the second is `x` (or `lon`); otherwise they run along y, as in NumPy.
 
 use std::collections::HashMap;
 

@@ -1,8 +1,8 @@
 //! NID, EZD: atomic force microscopes of Nanosurf; read only.
 //!
-//! The text has parts with lines `name=value`, the first of which is `[DataSet]`. After `#!` the numbers of all data sets
-//! follow without gaps, x fastest, from the last y to the first. `Gr0-Ch1` in the first part names the part that describes
-//! a data set:
+//! The text has parts with lines `name=value`, the first of which is `[DataSet]`. After `#!` the numbers of
+//! all data sets follow without gaps, x fastest, from the last y to the first. `Gr0-Ch1` in the first part
+//! names the part that describes a data set:
 //!
 //! ```text
 //! Points=256  Lines=256  SaveBits=16  SaveSign=Signed  SaveOrder=Intel  Frame=Scan forward

@@ -1,7 +1,8 @@
 //! NPZ: arrays of NumPy under names, as `numpy.savez` and `numpy.savez_compressed` write them; read only.
 //!
-//! A zip archive with a file `NAME.npy` for each array. Each matrix of real numbers is a channel, indexed `[ix, iy]` in metres,
-//! see [`npy`](super::npy); other arrays are left out. If there are several, the user must choose one. There is no pitch.
+//! A zip archive with a file `NAME.npy` for each array. Each matrix of real numbers is a channel, indexed
+//! `[ix, iy]` in metres, see [`npy`](super::npy); other arrays are left out. If there are several, the user
+//! must choose one. There is no pitch.
 
 use std::io::{Cursor, Read};
 

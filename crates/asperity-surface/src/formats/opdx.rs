@@ -1,7 +1,7 @@
 //! OPDx: stylus profilometers and interferometers of Bruker (Dektak, Vision64); read only.
 //!
-//! Little-endian. `VCA DATA`, 01 00 00 55, then items: a name, its kind u8, its content. A name is its length u32 and
-//! UTF-8. A size is the number of its bytes, 1, 2 or 4, and these bytes.
+//! Little-endian. `VCA DATA`, 01 00 00 55, then items: a name, its kind u8, its content. A name is its length
+//! u32 and UTF-8. A size is the number of its bytes, 1, 2 or 4, and these bytes.
 //!
 //! ```text
 //! 01 1 byte              12 text: size, UTF-8                          40 numbers: name, size, 5 bytes, f64 …
@@ -11,9 +11,10 @@
 //! 15 9 bytes             7d 46 47 size, items, 2 bytes                 45 matrix: name, size, the same      7f the end
 //! ```
 //!
-//! Channels are the containers in `/2D_Data` with a `Matrix` and those in `/1D_Data` with an `Array` (a profile). The unit
-//! of their `DataScale`, the factor of the numbers, must be a length. `Dimension1Extent` (y) and `Dimension2Extent` (x),
-//! for a profile `Extent`, extend from the first to the last number. NaN, or a number beyond 10³⁸, is a missing height.
+//! Channels are the containers in `/2D_Data` with a `Matrix` and those in `/1D_Data` with an `Array` (a
+//! profile). The unit of their `DataScale`, the factor of the numbers, must be a length. `Dimension1Extent`
+//! (y) and `Dimension2Extent` (x), for a profile `Extent`, extend from the first to the last number. NaN, or
+//! a number beyond 10³⁸, is a missing height.
 
 use std::collections::HashMap;
 

@@ -13,9 +13,9 @@ pub(super) struct Raster {
     pub(super) heights: Field,
 }
 
-/// Returns the heights in `column` over the positions in the first two, if these form a regular grid of at least 2 × 2
-/// points, in any order. Each position may deviate by a quarter of the pitch. Up to half of the points may be missing, or
-/// all but four on each line, if the grid cannot be a coincidence.
+/// Returns the heights in `column` over the positions in the first two, if these form a regular grid of at
+/// least 2 × 2 points, in any order. Each position may deviate by a quarter of the pitch. Up to half of the
+/// points may be missing, or all but four on each line, if the grid cannot be a coincidence.
 pub(super) fn raster(table: &Field, column: usize) -> Option<Raster> {
     let points = table.nrows();
     if points < 4 {
@@ -57,8 +57,8 @@ pub(super) enum Points {
 /// Returns the heights of a `table` whose columns are coordinates and height; none for a matrix.
 ///
 /// # Errors
-/// [`Defect::Points`] for a narrow table of many lines that form neither a map nor a profile, [`Defect::Value`] for other
-/// tables of coordinates.
+/// [`Defect::Points`] for a narrow table of many lines that form neither a map nor a profile,
+/// [`Defect::Value`] for other tables of coordinates.
 pub(super) fn points(table: &Field) -> Result<Option<Points>, Defect> {
     let (count, columns) = table.dim();
     if !(2..=MOST_COLUMNS).contains(&columns) {
@@ -106,8 +106,8 @@ const MOST_COLUMNS: usize = 7;
 /// Number of lines from which a table of three columns is no matrix.
 const FEW: usize = 8;
 
-/// Returns the heights in `column` over the positions in the first one, in rising order, if these are evenly spaced and all
-/// different. With many points up to half of the positions may be missing.
+/// Returns the heights in `column` over the positions in the first one, in rising order, if these are evenly
+/// spaced and all different. With many points up to half of the positions may be missing.
 pub(super) fn profile(table: &Field, column: usize) -> Option<Raster> {
     let points = table.nrows();
     let x = even(table.column(0))?;
@@ -194,7 +194,8 @@ impl Positions {
 
 /// Fraction of a pitch by which a position may deviate, because of the stage of an instrument.
 const OFF: f64 = 0.25;
-/// The same fraction for so few points that a coincidence is possible, because of the rounding of printed numbers.
+/// The same fraction for so few points that a coincidence is possible, because of the rounding of printed
+/// numbers.
 const OFF_IF_FEW: f64 = 0.02;
 /// Widest gap between existing positions, in pitches.
 const WIDEST_GAP: usize = 16;

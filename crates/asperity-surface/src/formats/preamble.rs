@@ -1,9 +1,9 @@
 //! Words above the numbers of a text.
 //!
-//! A preamble is plain if each of its lines has a word, and the numbers below it go on to the end. Its last line may name the
-//! columns of a table, or be the labels above a matrix behind a word. Known words give the unit, the pitch and the size of a
-//! matrix, see [`VOCABULARY`]; a unit may stand behind the number, in the next value or in brackets behind the word. Other
-//! words have no effect.
+//! A preamble is plain if each of its lines has a word, and the numbers below it go on to the end. Its last
+//! line may name the columns of a table, or be the labels above a matrix behind a word. Known words give the
+//! unit, the pitch and the size of a matrix, see [`VOCABULARY`]; a unit may stand behind the number, in the
+//! next value or in brackets behind the word. Other words have no effect.
 
 use super::csv;
 use super::numbers::{Part, Separator, fields, value};
@@ -224,7 +224,8 @@ impl<'a> Found<'a> {
         Some(found)
     }
 
-    /// Adds lines of separators directly above, unless these fill up lines of words, too, as in a spreadsheet.
+    /// Adds lines of separators directly above, unless these fill up lines of words, too, as in a
+    /// spreadsheet.
     fn include_missing_lines(&mut self) {
         let Kind::Numbers(columns) = self.kind else { return };
         let is_filled = |line: &str| fields(line).count() == columns;

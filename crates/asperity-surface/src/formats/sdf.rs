@@ -1,8 +1,8 @@
 //! SDF, the surface data file of ISO 25178-71, and earlier of BCR's report EUR 15178.
 //!
-//! The file has a header, the heights with x fastest, and a trailer of text. The first byte is the kind: `a` text, `b`
-//! binary, little-endian. The version follows: `ISO-1.0`, `ISO-2.0`, `BCR-1.0`, `NIST-1.0`. A height is a number times
-//! `Zscale`, in metres.
+//! The file has a header, the heights with x fastest, and a trailer of text. The first byte is the kind: `a`
+//! text, `b` binary, little-endian. The version follows: `ISO-1.0`, `ISO-2.0`, `BCR-1.0`, `NIST-1.0`. A
+//! height is a number times `Zscale`, in metres.
 //!
 //! ```text
 //! 0   version (8)             ManufacID (10)  CreateDate (12)  ModDate (12)
@@ -11,9 +11,10 @@
 //!     Compression, DataType, CheckType     3 u8
 //! ```
 //!
-//! Data types are 0, 1, 2 for unsigned and 4, 5, 6 for signed integers of 8, 16, 32 bits, and 3 and 7 for floating point of
-//! 32 and 64 bits; in text also a word such as `INTEGER`. In text each record is a line `name = value`, a semicolon begins a
-//! comment, and a line with an asterisk ends each part. The first byte may be a capital in BCR files.
+//! Data types are 0, 1, 2 for unsigned and 4, 5, 6 for signed integers of 8, 16, 32 bits, and 3 and 7 for
+//! floating point of 32 and 64 bits; in text also a word such as `INTEGER`. In text each record is a line
+//! `name = value`, a semicolon begins a comment, and a line with an asterisk ends each part. The first byte
+//! may be a capital in BCR files.
 //!
 //! | version | missing height, binary | in text | first profile |
 //! |---|---|---|---|
@@ -35,7 +36,8 @@ use asperity_base::error::{Defect, Result};
 use asperity_base::grid::{Field, Grid};
 use asperity_base::io::atomic;
 
-/// Writes `heights` on `grid` to `path` in binary, as float64, atomically. NaN becomes the marker of the standard.
+/// Writes `heights` on `grid` to `path` in binary, as float64, atomically. NaN becomes the marker of the
+/// standard.
 ///
 /// The version is `ISO-1.0` for sizes up to 65535, and `ISO-2.0` beyond.
 ///

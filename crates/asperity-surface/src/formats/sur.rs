@@ -1,7 +1,8 @@
-//! Digital Surf `.sur` (MountainsMap): surfaces with 16 or 32 bits per height, plain or compressed; read only.
+//! Digital Surf `.sur` (MountainsMap): surfaces with 16 or 32 bits per height, plain or compressed; read
+//! only.
 //!
-//! Format: the manual of MountainsMap, "SURF file format". A file holds one or more objects. Each starts with 512
-//! bytes, little-endian, then a comment and a private zone, then the heights, x fastest:
+//! Format: the manual of MountainsMap, "SURF file format". A file holds one or more objects. Each starts with
+//! 512 bytes, little-endian, then a comment and a private zone, then the heights, x fastest:
 //!
 //! ```text
 //! 0   code (12)            98  bits per height i16   120 spacing of x, y, z 3 f32   334 lengths of the comment
@@ -11,9 +12,9 @@
 //! 86  1: some are missing
 //! ```
 //!
-//! A height is `raw · spacing + offset` in the unit of the spacing. A missing one is stored as the minimum minus 2.
-//! Compressed files have the code `DSCOMPRESSED`. Their heights are preceded by the number of zlib streams and, for each,
-//! its unpacked and packed length (u32).
+//! A height is `raw · spacing + offset` in the unit of the spacing. A missing one is stored as the minimum
+//! minus 2. Compressed files have the code `DSCOMPRESSED`. Their heights are preceded by the number of zlib
+//! streams and, for each, its unpacked and packed length (u32).
 
 use std::io::Read;
 

@@ -58,7 +58,8 @@ struct Content {
     lines: Option<Axis>,
 }
 
-/// Reads the numbers below a preamble. If the options call them a matrix, they are neither points nor a profile.
+/// Reads the numbers below a preamble. If the options call them a matrix, they are neither points nor a
+/// profile.
 fn content(preamble: &Preamble<'_>, is_matrix: bool) -> Result<Content, Defect> {
     let numbers = preamble.numbers;
     let lines = match matrix(numbers, preamble.has_labels) {

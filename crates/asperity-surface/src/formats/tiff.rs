@@ -1,9 +1,10 @@
 //! TIFF: images with one number per pixel; read only.
 //!
-//! Format: "TIFF, Revision 6.0" and BigTIFF, plain or compressed by LZW or deflate. Lines run along x. Floating-point
-//! numbers are heights in metres. Integers are levels, whose height is not in the file. There is no pitch, because
-//! resolutions are those of a print. Each page is a channel. A missing height is NaN, or the number that the tag of GDAL
-//! (42113) gives. Images of JPK, of Park Systems and of an Olympus LEXT are refused: their pages are no heights without their private tags.
+//! Format: "TIFF, Revision 6.0" and BigTIFF, plain or compressed by LZW or deflate. Lines run along x.
+//! Floating-point numbers are heights in metres. Integers are levels, whose height is not in the file. There
+//! is no pitch, because resolutions are those of a print. Each page is a channel. A missing height is NaN, or
+//! the number that the tag of GDAL (42113) gives. Images of JPK, of Park Systems and of an Olympus LEXT are
+//! refused: their pages are no heights without their private tags.
 
 use std::io::Cursor;
 
@@ -63,8 +64,8 @@ fn open(bytes: &[u8]) -> Result<File<'_>, Defect> {
     Ok(Decoder::new(Cursor::new(bytes)).map_err(container)?.with_limits(limits))
 }
 
-/// Rejects entries of the first directory with more values than the file contains: the decoder reads them before a limit
-/// can be set.
+/// Rejects entries of the first directory with more values than the file contains: the decoder reads them
+/// before a limit can be set.
 fn vet_first_directory(bytes: &[u8]) -> Result<(), Defect> {
     let little = bytes.starts_with(b"I");
     let number = |at: u64, size: u64| -> Option<u64> {

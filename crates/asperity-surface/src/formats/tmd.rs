@@ -1,7 +1,8 @@
 //! TMD: TrueMap and TrueGage; read only.
 //!
-//! Little-endian. `Binary TrueMap Data File v2.0`, CR LF and a zero, a comment with a final zero, the sizes along x and y
-//! (2 i32), the lengths and offsets along x and y (4 f32), and the heights (f32, x fastest). Lengths are in mm.
+//! Little-endian. `Binary TrueMap Data File v2.0`, CR LF and a zero, a comment with a final zero, the sizes
+//! along x and y (2 i32), the lengths and offsets along x and y (4 f32), and the heights (f32, x fastest).
+//! Lengths are in mm.
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
 use super::{Decoded, only};

@@ -46,11 +46,12 @@ impl Format {
 }
 
 impl Topography {
-    /// Writes the heights to the file at `path`, in the [`Format`] given by its extension. The file is written completely
-    /// or not at all.
+    /// Writes the heights to the file at `path`, in the [`Format`] given by its extension. The file is
+    /// written completely or not at all.
     ///
     /// # Errors
-    /// [`Error::NoFormat`] if the extension belongs to no format, [`Error::File`] if the file cannot be written.
+    /// [`Error::NoFormat`] if the extension belongs to no format, [`Error::File`] if the file cannot be
+    /// written.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         let (grid, heights) = (self.grid(), self.heights());

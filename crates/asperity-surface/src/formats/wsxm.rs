@@ -1,8 +1,8 @@
 //! WSxM `.stp`, `.top`: scanning probe microscopy; read only.
 //!
-//! `WSxM file copyright`, `SxM Image file`, `Image header size: 4607`, then parts with lines `name: value`. After a header
-//! of that size come the heights, little-endian, x fastest. The image is upside down and mirrored: from the last y and the
-//! last x to the first.
+//! `WSxM file copyright`, `SxM Image file`, `Image header size: 4607`, then parts with lines `name: value`.
+//! After a header of that size come the heights, little-endian, x fastest. The image is upside down and
+//! mirrored: from the last y and the last x to the first.
 //!
 //! ```text
 //! [Control]        X Amplitude: 600 nm      Y Amplitude: 600 nm
@@ -10,8 +10,8 @@
 //! [Miscellaneous]  Maximum: 6900            Minimum: 5927
 //! ```
 //!
-//! `double` and `float` are heights in the unit of the amplitude. Integers (`short`) are scaled so that the range from
-//! minimum to maximum is the amplitude.
+//! `double` and `float` are heights in the unit of the amplitude. Integers (`short`) are scaled so that the
+//! range from minimum to maximum is the amplitude.
 
 use super::binary::{Cursor, Number, Order, Raster, shape, text};
 use super::header::{Header, sections};

@@ -1,8 +1,9 @@
 //! x3p: ISO 25178-72 and ISO 5436-2.
 //!
-//! The file is a zip archive of `main.xml`, the heights in binary (or in the XML), and checksums. Everything is in metres.
-//! Heights are stored with x fastest, little-endian; integers count increments of the z axis. A missing height is NaN, or
-//! has a 0 in the mask of valid points: one bit for each, the least significant first, or one byte.
+//! The file is a zip archive of `main.xml`, the heights in binary (or in the XML), and checksums. Everything
+//! is in metres. Heights are stored with x fastest, little-endian; integers count increments of the z axis. A
+//! missing height is NaN, or has a 0 in the mask of valid points: one bit for each, the least significant
+//! first, or one byte.
 
 use std::fmt::Write as _;
 use std::io::{Cursor, Read, Write as _};
@@ -319,7 +320,8 @@ impl Header {
         Ok(heights)
     }
 
-    /// Reads the numbers of a list in the XML: for each point its coordinates, of which z is the last, or nothing.
+    /// Reads the numbers of a list in the XML: for each point its coordinates, of which z is the last, or
+    /// nothing.
     fn listed(&self, list: Node<'_, '_>) -> Outcome<Vec<f64>> {
         let mut numbers = Vec::new();
         for point in list.children().filter(|node| node.tag_name().name() == "Datum") {

@@ -17,29 +17,31 @@ use asperity_derive::Part;
 ///
 /// s = √((x/βx)² + (y/βy)²), R = exp(−ln 10 s) or exp(−ln 10 s²).
 ///
-/// A lay rotates the axes of the ellipse s = 1 by its angle. A ground surface, for example, has a long correlation along
-/// the lay and a short one across.
+/// A lay rotates the axes of the ellipse s = 1 by its angle. A ground surface, for example, has a long
+/// correlation along the lay and a short one across.
 ///
-/// The lengths are defined as by Hu & Tonder, Int. J. Mach. Tools Manuf. 32, 83 (1992), whose exp(−2.3 …) the exponential
-/// is. The length to 1/e is β/ln 10 for the exponential, β/√ln 10 for the Gaussian. The response of the filter is the
-/// square root of the prescribed spectrum, which is the transform of R.
+/// The lengths are defined as by Hu & Tonder, Int. J. Mach. Tools Manuf. 32, 83 (1992), whose exp(−2.3 …) the
+/// exponential is. The length to 1/e is β/ln 10 for the exponential, β/√ln 10 for the Gaussian. The response
+/// of the filter is the square root of the prescribed spectrum, which is the transform of R.
 ///
-/// The noise field is three correlation lengths longer than the surface cut out of it. The surface is therefore not
-/// periodic, and its opposite edges are correlated by less than 10⁻³. Sq is exact for every surface. R is exact as the mean
-/// over seeds, apart from the effect of setting the mean height and Sq of each surface, of the order of βxβy/area.
+/// The noise field is three correlation lengths longer than the surface cut out of it. The surface is
+/// therefore not periodic, and its opposite edges are correlated by less than 10⁻³. Sq is exact for every
+/// surface. R is exact as the mean over seeds, apart from the effect of setting the mean height and Sq of
+/// each surface, of the order of βxβy/area.
 #[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Autocorrelation {
     /// Rms height, exact.
     #[key(quantity = Length, range = AboveZero, example = "\"0.2 um\"", exists = exists::ROUGHNESS)]
     pub sq: Metre,
-    /// Length over which the autocorrelation decays to 10 %, one value or two (along and across the lay), from one pitch to the length of
-    /// the surface.
+    /// Length over which the autocorrelation decays to 10 %, one value or two (along and across the lay),
+    /// from one pitch to the length of the surface.
     ///
-    /// Without a lay along x and y. The ellipse with these semi-axes extends beyond the neighbouring samples, but not beyond the length of
-    /// the surface.
+    /// Without a lay along x and y. The ellipse with these semi-axes extends beyond the neighbouring samples,
+    /// but not beyond the length of the surface.
     #[key(quantity = Length, range = AboveZero, pair, example = "\"8 um\"", exists = exists::WAVE)]
     pub correlation_length: [Metre; 2],
-    /// Decay of the autocorrelation: `"exponential"`, rough down to the smallest scale, or `"gaussian"`, smooth.
+    /// Decay of the autocorrelation: `"exponential"`, rough down to the smallest scale, or `"gaussian"`,
+    /// smooth.
     #[key(choice, default = Decay::Exponential, example = "\"gaussian\"")]
     #[serde(skip_serializing_if = "Decay::is_exponential")]
     pub decay: Decay,
@@ -56,8 +58,8 @@ pub struct Autocorrelation {
 /// Shape of an autocorrelation over the distance.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Decay {
-    /// R = exp(−ln 10 s): a surface with edges down to the smallest scale, such as a ground one (Whitehouse & Archard,
-    /// Proc. R. Soc. A 316, 97 (1970)).
+    /// R = exp(−ln 10 s): a surface with edges down to the smallest scale, such as a ground one (Whitehouse &
+    /// Archard, Proc. R. Soc. A 316, 97 (1970)).
     #[default]
     Exponential,
     /// R = exp(−ln 10 s²): a smooth surface.
@@ -92,7 +94,8 @@ impl Autocorrelation {
         stationary(grid, shape, seed, self.sq, self.heights, || self.spectrum(shape, grid.pitch))
     }
 
-    /// Returns the shape of the noise that is filtered to a topography on `grid`, if every parameter is valid there.
+    /// Returns the shape of the noise that is filtered to a topography on `grid`, if every parameter is valid
+    /// there.
     pub fn shape(&self, grid: &Grid) -> Result<[usize; 2]> {
         check_sq(self.sq)?;
         check_in(Dimension::Angle, "lay", self.lay, self.lay.is_finite(), "an angle")?;
@@ -118,18 +121,19 @@ impl Autocorrelation {
         Ok(shape_with_margin(grid, reach.map(|length| 3.0 * length)))
     }
 
-    /// Returns the spectrum of the autocorrelation, with variance 1, on a period of `shape` samples, in the layout of
-    /// [`symmetric_transform`].
+    /// Returns the spectrum of the autocorrelation, with variance 1, on a period of `shape` samples, in the
+    /// layout of [`symmetric_transform`].
     ///
-    /// On a short period the ends meet in a kink, which gives the spectrum slightly negative values; they are set to 0.
+    /// On a short period the ends meet in a kink, which gives the spectrum slightly negative values; they are
+    /// set to 0.
     fn spectrum(&self, shape @ [nx, ny]: [usize; 2], pitch: [Metre; 2]) -> Field {
         let covariance = self.covariance(shape, pitch);
         let half = Field::from_shape_fn([nx / 2 + 1, ny], |(i, j)| covariance(i, j));
         symmetric_transform(&half, shape).mapv_into(|value| value.max(0.0))
     }
 
-    /// Returns the autocorrelation, with variance 1, of samples `[i, j]` apart on a period of `shape`, i at most half of
-    /// it.
+    /// Returns the autocorrelation, with variance 1, of samples `[i, j]` apart on a period of `shape`, i at
+    /// most half of it.
     pub fn covariance(&self, [_, ny]: [usize; 2], pitch: [Metre; 2]) -> impl Fn(usize, usize) -> f64 {
         let (distance, decay) = (self.distance(), self.decay);
         move |i, j| {

@@ -11,16 +11,16 @@ use asperity_derive::Part;
 
 /// Skewness and kurtosis of the heights; those of the Gaussian distribution by default.
 ///
-/// Heights are z = f(g), with a Gaussian process g and the curve f of Johnson's system with these moments: a translation
-/// process (Grigoriu, *Applied Non-Gaussian Processes*, 1995). It does not depend on the length of the filter. The
-/// alternative of Hu & Tonder translates the noise before the filter. It needs noise of kurtosis 3 + (Sku − 3)(Σh²)²/Σh⁴,
-/// which is 1070 for Sku = 4.5 and a cut-off of 32 samples, and no sample of it has that. It is also limited to
-/// Sku > 3 + 1.3 Ssk².
+/// Heights are z = f(g), with a Gaussian process g and the curve f of Johnson's system with these moments: a
+/// translation process (Grigoriu, *Applied Non-Gaussian Processes*, 1995). It does not depend on the length
+/// of the filter. The alternative of Hu & Tonder translates the noise before the filter. It needs noise of
+/// kurtosis 3 + (Sku − 3)(Σh²)²/Σh⁴, which is 1070 for Sku = 4.5 and a cut-off of 32 samples, and no sample
+/// of it has that. It is also limited to Sku > 3 + 1.3 Ssk².
 ///
-/// The translation changes the autocorrelation. That of g is chosen so that the result has the prescribed one, as far as
-/// such a process exists. Spectra with a sharp edge are only approximated, see [`crate::LowPass`]. The moments are
-/// those of the mean over seeds. A single surface deviates by its statistical error, about √(6/n) and √(24/n) for n
-/// independent spots, more for heavy tails.
+/// The translation changes the autocorrelation. That of g is chosen so that the result has the prescribed
+/// one, as far as such a process exists. Spectra with a sharp edge are only approximated, see
+/// [`crate::LowPass`]. The moments are those of the mean over seeds. A single surface deviates by its
+/// statistical error, about √(6/n) and √(24/n) for n independent spots, more for heavy tails.
 #[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
 #[part(check = skewed)]
 pub struct HeightDistribution {
@@ -110,8 +110,8 @@ impl Translation {
         self.curve.height(g)
     }
 
-    /// Returns the spectrum of the Gaussian process, with variance 1, for heights with this `spectrum`. Each is `[l, k]` on
-    /// a period of `shape` samples in the layout of [`symmetric_transform`].
+    /// Returns the spectrum of the Gaussian process, with variance 1, for heights with this `spectrum`. Each
+    /// is `[l, k]` on a period of `shape` samples in the layout of [`symmetric_transform`].
     ///
     /// If no process has the required autocorrelation, its spectrum has negative values, which are set to 0.
     pub(super) fn underlying(&self, spectrum: Field, shape @ [nx, ny]: [usize; 2]) -> Field {

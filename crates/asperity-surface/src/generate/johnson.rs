@@ -2,17 +2,17 @@
 
 use asperity_base::error::{Result, check};
 
-/// A curve z = f(g): for a Gaussian number g with mean 0 and variance 1, z has mean 0, variance 1 and the prescribed
-/// skewness and kurtosis.
+/// A curve z = f(g): for a Gaussian number g with mean 0 and variance 1, z has mean 0, variance 1 and the
+/// prescribed skewness and kurtosis.
 ///
-/// Johnson, Biometrika 36, 149 (1949). In the plane of skewness and kurtosis, the unbounded curves S_U lie above the line
-/// of the log-normal curves S_L, and the bounded ones S_B below it,
+/// Johnson, Biometrika 36, 149 (1949). In the plane of skewness and kurtosis, the unbounded curves S_U lie
+/// above the line of the log-normal curves S_L, and the bounded ones S_B below it,
 ///
 /// z ∝ sinh(x g + c),   z ∝ 1/(1 + exp(c − x g)),   both S_L as c → ∞,
 ///
-/// for a skewness ≥ 0; a negative one changes both signs. x and c follow from the moments, as in Hill, Hill & Holder, Appl.
-/// Stat. 25, 180 (1976). Here both curves use moments by quadrature: c is solved for the skewness at each x, and x for the
-/// kurtosis.
+/// for a skewness ≥ 0; a negative one changes both signs. x and c follow from the moments, as in Hill, Hill &
+/// Holder, Appl. Stat. 25, 180 (1976). Here both curves use moments by quadrature: c is solved for the
+/// skewness at each x, and x for the kurtosis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Johnson {
     sign: f64,
@@ -46,8 +46,8 @@ impl Johnson {
             let c = root([0.0, log_normal], 1e-11, |c| average.moments(|g| of(x, c).height(g))[2] - skewness);
             of(x, c)
         };
-        // Along the curves of constant skewness the kurtosis departs from the line with x; ln Sku and ln(Sku − Ssk² − 1)
-        // are closer to linear.
+        // Along the curves of constant skewness the kurtosis departs from the line with x; ln Sku and ln(Sku
+        // − Ssk² − 1) are closer to linear.
         let excess = |x: f64| {
             let curve = at(x);
             let kurtosis = average.moments(|g| curve.height(g))[3];
@@ -66,8 +66,8 @@ impl Johnson {
     }
 
     /// Returns the contributions c₁, c₂, … to the variance in the expansion of f in Hermite polynomials. The
-    /// autocorrelation r of f(g) follows from that of g, ρ, as r = Σ cₖ ρᵏ (Mehler). Their sum is 1; the last one includes
-    /// the rest of the series.
+    /// autocorrelation r of f(g) follows from that of g, ρ, as r = Σ cₖ ρᵏ (Mehler). Their sum is 1; the last
+    /// one includes the rest of the series.
     pub(super) fn shares(&self) -> [f64; TERMS] {
         let average = Average::new();
         let mut coefficients = [0.0; TERMS];
@@ -115,8 +115,8 @@ struct Average {
 }
 
 impl Average {
-    /// Creates the trapezoidal rule, which converges faster than any power for functions that are smooth on the scale of
-    /// the step.
+    /// Creates the trapezoidal rule, which converges faster than any power for functions that are smooth on
+    /// the scale of the step.
     fn new() -> Self {
         /// Step of the rule, in standard deviations.
         const STEP: f64 = 1.0 / 16.0;
@@ -146,11 +146,12 @@ impl Average {
     }
 }
 
-/// Finds the zero of a monotone `f` between `a` < `b`, to `epsilon`. Without a change of sign, returns the end where it is
-/// closer to 0.
+/// Finds the zero of a monotone `f` between `a` < `b`, to `epsilon`. Without a change of sign, returns the
+/// end where it is closer to 0.
 ///
-/// The method interpolates, truncates and projects. It converges faster than linearly, with at most one evaluation more
-/// than bisection. Oliveira & Takahashi, ACM Trans. Math. Softw. 47, 5 (2021), with κ₁ = 0.2/(b − a), κ₂ = 1, n₀ = 1.
+/// The method interpolates, truncates and projects. It converges faster than linearly, with at most one
+/// evaluation more than bisection. Oliveira & Takahashi, ACM Trans. Math. Softw. 47, 5 (2021), with κ₁ =
+/// 0.2/(b − a), κ₂ = 1, n₀ = 1.
 fn root([mut a, mut b]: [f64; 2], epsilon: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (mut at_a, mut at_b) = (f(a), f(b));
     if at_a * at_b >= 0.0 {

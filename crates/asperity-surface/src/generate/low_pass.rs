@@ -21,14 +21,15 @@ use asperity_derive::Part;
 ///
 /// h(k, l) = ωc J₁(ωc ρ)/2πρ, h(0, 0) = ωc²/4π, ρ = √(k² + l²), ωc = 2πΔx/λc
 ///
-/// Its response is 1 for √(ωx² + ωy²) < ωc, else 0. It decreases only as ρ^(−3/2): truncated at n wavelengths it loses the
-/// fraction 1/π²n of the variance and passes short waves. Here the whole filter is applied, by its response, to a noise
-/// field four wavelengths longer than the surface. The surface is then cut out of it and is not periodic: the correlation
-/// of its opposite edges, 2 J₁(8π)/8π, is below 0.013.
+/// Its response is 1 for √(ωx² + ωy²) < ωc, else 0. It decreases only as ρ^(−3/2): truncated at n wavelengths
+/// it loses the fraction 1/π²n of the variance and passes short waves. Here the whole filter is applied, by
+/// its response, to a noise field four wavelengths longer than the surface. The surface is then cut out of it
+/// and is not periodic: the correlation of its opposite edges, 2 J₁(8π)/8π, is below 0.013.
 ///
-/// Non-Gaussian heights also contain waves shorter than the cut-off, because no curve preserves a sharp edge of the
-/// spectrum. The measured fraction of the variance beyond the edge, and the increase of the slopes, are 0.6 % and 1 % for
-/// Ssk = −0.5, Sku = 3.5. They are 2 %, 3 % for −1, 4.5, and 9 %, 14 % for −2, 8, and 0.7 %, 1.5 % for 0, 2.2.
+/// Non-Gaussian heights also contain waves shorter than the cut-off, because no curve preserves a sharp edge
+/// of the spectrum. The measured fraction of the variance beyond the edge, and the increase of the slopes,
+/// are 0.6 % and 1 % for Ssk = −0.5, Sku = 3.5. They are 2 %, 3 % for −1, 4.5, and 9 %, 14 % for −2, 8, and
+/// 0.7 %, 1.5 % for 0, 2.2.
 #[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LowPass {
     /// Rms height, exact.
@@ -84,7 +85,8 @@ impl LowPass {
         stationary(grid, shape, seed, self.sq, self.heights, spectrum)
     }
 
-    /// Returns the shape of the noise that is filtered to a topography on `grid`, if every parameter is valid there.
+    /// Returns the shape of the noise that is filtered to a topography on `grid`, if every parameter is valid
+    /// there.
     pub fn shape(&self, grid: &Grid) -> Result<[usize; 2]> {
         check_sq(self.sq)?;
         for axis in 0..2 {
@@ -103,11 +105,12 @@ impl LowPass {
         Ok(shape_with_margin(grid, self.cutoff.map(|length| 4.0 * length)))
     }
 
-    /// Returns the coefficients h(k, l) of the filter, −`reach` ≤ k, l ≤ `reach`, at `[k + reach, l + reach]`,
-    /// dimensionless.
+    /// Returns the coefficients h(k, l) of the filter, −`reach` ≤ k, l ≤ `reach`, at
+    /// `[k + reach, l + reach]`, dimensionless.
     ///
-    /// They belong to the exact band, without the margins of a finite grid. They illustrate the filter; [`Self::generate`]
-    /// applies its response instead. The scale of the heights is [`Self::sq`], independent of them.
+    /// They belong to the exact band, without the margins of a finite grid. They illustrate the filter;
+    /// [`Self::generate`] applies its response instead. The scale of the heights is [`Self::sq`], independent
+    /// of them.
     pub fn coefficients(&self, pitch: [Metre; 2], reach: [usize; 2]) -> Field {
         use std::f64::consts::{PI, TAU};
         let edge: [f64; 2] = std::array::from_fn(|axis| TAU * pitch[axis] / self.cutoff[axis]);
@@ -123,7 +126,8 @@ impl LowPass {
         })
     }
 
-    /// Returns the spectrum of the filter at some frequencies l, `[l, k]` of a transform of `shape`: its squared response.
+    /// Returns the spectrum of the filter at some frequencies l, `[l, k]` of a transform of `shape`: its
+    /// squared response.
     pub fn spectrum(&self, shape: [usize; 2], pitch: [Metre; 2], l: Range<usize>) -> Field {
         let [x, y] = std::array::from_fn(|axis| {
             let part = |bin| {
@@ -159,8 +163,8 @@ mod tests {
 
     #[test]
     fn the_response_is_the_transform_of_the_filter_of_hu_and_tonder() {
-        // On n² samples the transform sums the filter over all periods: the lattice points in a circle instead of its area,
-        // accurate to n^(−1/2) of the height at the origin.
+        // On n² samples the transform sums the filter over all periods: the lattice points in a circle
+        // instead of its area, accurate to n^(−1/2) of the height at the origin.
         let n = 512;
         for band in [Band::Elliptic, Band::Rectangular] {
             let filter = LowPass { band, ..LowPass::new(1.0, [16.0, 12.0]) };

@@ -37,8 +37,8 @@ pub enum Generator {
 }
 
 impl Generator {
-    /// Generates a topography on `grid` with the mean height 0. It is the same for the same `seed` on every machine, up to
-    /// the round-off of the Fourier transform.
+    /// Generates a topography on `grid` with the mean height 0. It is the same for the same `seed` on every
+    /// machine, up to the round-off of the Fourier transform.
     ///
     /// # Errors
     /// [`asperity_base::Error::OutOfRange`] if a parameter is invalid, in general or on this grid.
@@ -50,7 +50,8 @@ impl Generator {
         }
     }
 
-    /// Number of cells of the transforms for a topography on `grid`, with margins if its heights are not periodic.
+    /// Number of cells of the transforms for a topography on `grid`, with margins if its heights are not
+    /// periodic.
     pub fn cells(&self, grid: &Grid) -> f64 {
         let margin = match self {
             Self::LowPass(method) => method.cutoff.map(|length| 4.0 * length),

@@ -18,19 +18,19 @@ pub fn white_noise(seed: u64) -> impl Iterator<Item = f64> {
 
 /// Returns a shape for fast transforms that is longer than the grid by at least `margin`.
 ///
-/// Filtering noise of this shape by the Fourier transform gives a periodic surface. The part of it on the grid is not
-/// periodic, and its opposite edges are at least `margin` apart.
+/// Filtering noise of this shape by the Fourier transform gives a periodic surface. The part of it on the
+/// grid is not periodic, and its opposite edges are at least `margin` apart.
 pub(super) fn shape_with_margin(grid: &Grid, margin: [Metre; 2]) -> [usize; 2] {
     std::array::from_fn(|axis| {
         good_size(grid.shape[axis] + (margin[axis] / grid.pitch[axis]).ceil() as usize)
     })
 }
 
-/// Generates white noise of `shape`, filters it to a spectrum, translates it to a distribution of `heights`, cuts it to the
-/// grid, removes its mean, and scales it to the rms height `sq`.
+/// Generates white noise of `shape`, filters it to a spectrum, translates it to a distribution of `heights`,
+/// cuts it to the grid, removes its mean, and scales it to the rms height `sq`.
 ///
-/// `spectrum`, ≥ 0 with any variance, is that of the heights. It is indexed `[l, k]` by the periods along y, l = 0 … ny/2,
-/// and along x, k in the order of the transform, with negative ones last.
+/// `spectrum`, ≥ 0 with any variance, is that of the heights. It is indexed `[l, k]` by the periods along y,
+/// l = 0 … ny/2, and along x, k in the order of the transform, with negative ones last.
 pub(super) fn stationary(
     grid: &Grid,
     shape: [usize; 2],

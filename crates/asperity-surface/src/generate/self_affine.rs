@@ -21,14 +21,14 @@ use asperity_base::units::{Dimension, Metre};
 use asperity_base::{beside, exists};
 use asperity_derive::Part;
 
-/// Periodic heights with the spectrum |ẑ(q)|² ∝ q^(−2−2H) from the roll-off to the shortest wave, constant for longer waves
-/// and zero for shorter ones. The phases are random, the magnitudes are not.
+/// Periodic heights with the spectrum |ẑ(q)|² ∝ q^(−2−2H) from the roll-off to the shortest wave, constant
+/// for longer waves and zero for shorter ones. The phases are random, the magnitudes are not.
 ///
-/// Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017); the same form as in the Contact Mechanics
-/// Challenge, Müser et al., Tribol. Lett. 65, 118 (2017).
+/// Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017); the same form as in the Contact
+/// Mechanics Challenge, Müser et al., Tribol. Lett. 65, 118 (2017).
 ///
-/// A wave has the same phase on every grid of the same extent. With `shortest` given, a finer grid shows the same surface
-/// in more detail, as convergence studies require.
+/// A wave has the same phase on every grid of the same extent. With `shortest` given, a finer grid shows the
+/// same surface in more detail, as convergence studies require.
 #[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
 #[part(check = shorter)]
 pub struct SelfAffine {
@@ -83,8 +83,8 @@ pub enum Amplitude {
     Sq(Metre),
     /// Rms slope, exact (as the sum of waves).
     ///
-    /// √⟨|∇z|²⟩ = √(Σ q² |ẑ|²). The finite differences of [`crate::HybridParameters::sdq`] give less if there are waves shorter than about
-    /// four pitches.
+    /// √⟨|∇z|²⟩ = √(Σ q² |ẑ|²). The finite differences of [`crate::HybridParameters::sdq`] give less if there
+    /// are waves shorter than about four pitches.
     #[key(number = "a number", range = AboveZero, example = "0.1", exists = exists::SLOPE)]
     Sdq(f64),
 }
@@ -106,8 +106,8 @@ impl SelfAffine {
         Topography::new(*grid, RealFft2::new(grid.shape).inverse_transposed(spectrum, grid.shape))
     }
 
-    /// Returns the unscaled transform `[l, k]` of a topography at the frequencies `among` along y, and the contributions of
-    /// these waves to the squares of height and slope. [`Self::scale`] gives the factor.
+    /// Returns the unscaled transform `[l, k]` of a topography at the frequencies `among` along y, and the
+    /// contributions of these waves to the squares of height and slope. [`Self::scale`] gives the factor.
     pub fn spectrum(
         &self,
         grid: &Grid,
@@ -205,11 +205,11 @@ impl SelfAffine {
 /// Number of frequencies along y processed in parallel.
 const AT_ONCE: usize = 16;
 
-/// Calls `f(k, phase)` for one wave of each pair ±q resolved by the grid: l periods along y, k along x, with negative ones
-/// counted down from nx.
+/// Calls `f(k, phase)` for one wave of each pair ±q resolved by the grid: l periods along y, k along x, with
+/// negative ones counted down from nx.
 ///
-/// The phases for one l are a separate stream of the generator, in the order k = 0, 1, −1, 2, −2, …. They therefore depend
-/// on the seed and the wave, not on the shape.
+/// The phases for one l are a separate stream of the generator, in the order k = 0, 1, −1, 2, −2, …. They
+/// therefore depend on the seed and the wave, not on the shape.
 fn for_each_wave([nx, ny]: [usize; 2], seed: u64, l: usize, mut f: impl FnMut(usize, f64)) {
     if 2 * l >= ny {
         return;

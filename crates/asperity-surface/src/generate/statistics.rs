@@ -1,8 +1,9 @@
-//! Statistics over 100 seeds: moments, autocorrelation and spectrum of every method, compared with the prescribed ones.
+//! Statistics over 100 seeds: moments, autocorrelation and spectrum of every method, compared with the
+//! prescribed ones.
 //!
-//! The surfaces are independent, so that the standard error of a mean over them is their scatter over √100; the tolerance
-//! is four of these. Setting the mean height and Sq of every surface adds a bias of the order of 1/n for a surface of n
-//! independent spots.
+//! The surfaces are independent, so that the standard error of a mean over them is their scatter over √100;
+//! the tolerance is four of these. Setting the mean height and Sq of every surface adds a bias of the order
+//! of 1/n for a surface of n independent spots.
 
 use std::f64::consts::{FRAC_PI_4, LN_10, TAU};
 use std::sync::LazyLock;
@@ -134,7 +135,8 @@ fn skewness_and_kurtosis_are_those_asked_for_over_a_hundred_seeds() {
         // Bias of the sample moments: up to 10 or so terms of order 1, each over the number of spots.
         skewness.check(case.ssk, 3.0 / spots, || format!("{}: Ssk", case.name));
         kurtosis.check(case.sku, 12.0 / spots, || format!("{}: Sku", case.name));
-        // Gaussian heights scatter as in theory: √(6/n), √(24/n), with n for R³ and R⁴ larger than that for R².
+        // Gaussian heights scatter as in theory: √(6/n), √(24/n), with n for R³ and R⁴ larger than that for
+        // R².
         if case.sku == 3.0 {
             assert!(skewness.deviation() < 1.3 * (6.0 / spots).sqrt(), "{}", case.name);
             assert!(kurtosis.deviation() < 1.3 * (24.0 / spots).sqrt(), "{}", case.name);
@@ -175,7 +177,8 @@ fn the_spectrum_is_the_one_asked_for_over_a_hundred_seeds() {
         (ring < RINGS && (k, l) != (0, 0)).then_some([ring, sector])
     };
     for (case, surfaces) in cases() {
-        // The mean periodogram of a nonperiodic surface: the transform of R times the number of pairs at each lag.
+        // The mean periodogram of a nonperiodic surface: the transform of R times the number of pairs at each
+        // lag.
         let pairs = |i: usize, n: usize| [(i as f64, (n - i) as f64), (i as f64 - n as f64, i as f64)];
         let half = Field::from_shape_fn([nx / 2 + 1, ny], |(i, j)| {
             let mut sum = 0.0;

@@ -8,13 +8,13 @@ use asperity_base::units::Metre;
 
 /// Height above which a given fraction of the samples lies, relative to the mean of the samples.
 ///
-/// The `n` defined samples, in descending order, lie at the centres of their fractions of the ratio, z(p = (i − ½)/n) = zᵢ.
-/// Between them the curve is linear. Before the first and after the last it is constant. Its integral is therefore the sum
-/// of the samples, and a sampled ramp gives a ramp.
+/// The `n` defined samples, in descending order, lie at the centres of their fractions of the ratio, z(p = (i
+/// − ½)/n) = zᵢ. Between them the curve is linear. Before the first and after the last it is constant. Its
+/// integral is therefore the sum of the samples, and a sampled ramp gives a ramp.
 ///
 /// ISO 25178-2:2021, 4.5, and ISO 21920-2:2021 define the functions: Smr(c) = [`ratio`](Self::ratio)`(c)`,
-/// Smc(p) = [`height`](Self::height)`(p)`, Sdc(p, q) = Smc(p) − Smc(q),
-/// Vm(p) = [`material_volume`](Self::material_volume)`(p)`, Vv(p) = [`void_volume`](Self::void_volume)`(p)`. A ratio
+/// Smc(p) = [`height`](Self::height)`(p)`, Sdc(p, q) = Smc(p) − Smc(q), Vm(p) =
+/// [`material_volume`](Self::material_volume)`(p)`, Vv(p) = [`void_volume`](Self::void_volume)`(p)`. A ratio
 /// outside 0 … 1 is clamped.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BearingCurve {
@@ -52,13 +52,15 @@ impl BearingCurve {
         Ok(Self { heights, sums })
     }
 
-    /// Returns Smc, the height at a material ratio from 0 (the highest sample) to 1 (the lowest), relative to the mean.
+    /// Returns Smc, the height at a material ratio from 0 (the highest sample) to 1 (the lowest), relative to
+    /// the mean.
     pub fn height(&self, ratio: f64) -> Metre {
         let Place { index, beyond, step } = self.place(ratio);
         self.heights[index] + beyond * step
     }
 
-    /// Returns Smr, the material ratio at a height relative to the mean: the largest at which the curve has this height.
+    /// Returns Smr, the material ratio at a height relative to the mean: the largest at which the curve has
+    /// this height.
     pub fn ratio(&self, height: Metre) -> f64 {
         let (n, above) = (self.heights.len(), self.heights.partition_point(|&z| z >= height));
         if above == 0 || above == n {

@@ -7,7 +7,8 @@ use asperity_base::error::{Error, Result, check};
 
 /// A density over classes of equal width, by counting.
 ///
-/// The classes span the values from the lowest to the highest, which belongs to the last class. The integral is 1.
+/// The classes span the values from the lowest to the highest, which belongs to the last class. The integral
+/// is 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Distribution {
     /// The lowest value, at which the first class begins.
@@ -23,8 +24,9 @@ pub struct Distribution {
 pub enum Classes {
     /// A given number of classes.
     Number(usize),
-    /// Classes as wide as 2 IQR n^(−1/3), with IQR the interquartile range of the n values: Freedman and Diaconis, Z.
-    /// Wahrscheinlichkeitstheorie verw. Gebiete 57, 453 (1981). At most n classes; one if IQR = 0.
+    /// Classes as wide as 2 IQR n^(−1/3), with IQR the interquartile range of the n values: Freedman and
+    /// Diaconis, Z. Wahrscheinlichkeitstheorie verw. Gebiete 57, 453 (1981). At most n classes; one if IQR =
+    /// 0.
     #[default]
     FreedmanDiaconis,
 }
@@ -46,8 +48,8 @@ impl Distribution {
     /// Creates the distribution of finite `values`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for no classes; [`Error::Unsupported`] without two different values, for which no density
-    /// exists.
+    /// [`Error::OutOfRange`] for no classes; [`Error::Unsupported`] without two different values, for which
+    /// no density exists.
     pub fn of(mut values: Vec<f64>, classes: Classes) -> Result<Self> {
         values.sort_unstable_by(f64::total_cmp);
         let (lowest, range) = match values[..] {
@@ -127,8 +129,8 @@ mod tests {
             let half = 0.5 * found.width;
             let ratio = |z: f64| z.clamp(-1.0, 1.0).asin() / PI;
             let exact = (ratio(found.centre(i) + half) - ratio(found.centre(i) - half)) / found.width;
-            // A class with the fraction p has p n samples, with an error of one at each of its ends, on each of both
-            // flanks.
+            // A class with the fraction p has p n samples, with an error of one at each of its ends, on each
+            // of both flanks.
             assert!((density - exact).abs() <= 4.0 / 4000.0 / found.width, "{i}: {density} {exact}");
         }
     }

@@ -7,12 +7,13 @@ use asperity_base::error::Result;
 family! {
     /// Feature parameters of ISO 25178-2:2021, 5.8, from the hills and dales that remain after Wolf pruning.
     ///
-    /// Densities, heights and curvatures use all of these, including those at the boundary of the measured area, whose peak
-    /// may be a slope that was cut off. Areas and volumes use those [closed](Motif::closed) at c = 50 % material ratio.
+    /// Densities, heights and curvatures use all of these, including those at the boundary of the measured
+    /// area, whose peak may be a slope that was cut off. Areas and volumes use those [closed](Motif::closed)
+    /// at c = 50 % material ratio.
     ///
-    /// No filter is applied: level and filter first. All parameters are over the defined samples; [`Segmentation`]
-    /// describes the effect of holes. Without hills or dales a density is 0 and any other parameter NaN. Without a defined
-    /// sample all are NaN.
+    /// No filter is applied: level and filter first. All parameters are over the defined samples;
+    /// [`Segmentation`] describes the effect of holes. Without hills or dales a density is 0 and any other
+    /// parameter NaN. Without a defined sample all are NaN.
     FeatureParameters: "feature" {
         /// Density of peaks: hills by the defined area.
         spd: PerArea as "Spd",
@@ -20,7 +21,8 @@ family! {
         svd: PerArea as "Svd",
         /// Arithmetic mean peak curvature.
         ///
-        /// Not below 0: the mean of −½ (∂²z/∂x² + ∂²z/∂y²) over the peaks with a defined [`Motif::curvature`].
+        /// Not below 0: the mean of −½ (∂²z/∂x² + ∂²z/∂y²) over the peaks with a defined
+        /// [`Motif::curvature`].
         spc: PerLength as "Spc",
         /// Arithmetic mean pit curvature.
         ///
@@ -28,13 +30,13 @@ family! {
         svc: PerLength as "Svc",
         /// Five-point peak height.
         ///
-        /// Mean height of the five highest peaks above the mean of the topography. The standard does not define it for
-        /// fewer peaks; here it is the mean of all peaks.
+        /// Mean height of the five highest peaks above the mean of the topography. The standard does not
+        /// define it for fewer peaks; here it is the mean of all peaks.
         s5p: Length as "S5p",
         /// Five-point pit depth.
         ///
-        /// Positive: mean depth of the five deepest pits below the mean of the topography, or of all pits if there are
-        /// fewer.
+        /// Positive: mean depth of the five deepest pits below the mean of the topography, or of all pits if
+        /// there are fewer.
         s5v: Length as "S5v",
         /// Ten-point height, S5p + S5v.
         s10z: Length as "S10z",
@@ -54,8 +56,8 @@ family! {
 }
 
 impl FeatureParameters {
-    /// Computes the parameters of `topography`, pruned at a height of `pruning` · Sz; [`crate::WOLF_PRUNING`] is
-    /// usual.
+    /// Computes the parameters of `topography`, pruned at a height of `pruning` · Sz; [`crate::WOLF_PRUNING`]
+    /// is usual.
     ///
     /// # Errors
     /// [`asperity_base::Error::OutOfRange`] if `pruning` is not from 0 to 1.
@@ -134,7 +136,8 @@ mod tests {
 
     #[test]
     fn an_egg_box_has_its_textbook_parameters() {
-        // ½ (cos kx + cos ky), 5 × 5 waves of n samples, with a peak in the middle of each and pits where four waves meet.
+        // ½ (cos kx + cos ky), 5 × 5 waves of n samples, with a peak in the middle of each and pits where
+        // four waves meet.
         let n = 45;
         let order = (n as f64).powi(-2);
         let cosine = |i: usize| (TAU * (i as f64 - 22.0) / n as f64).cos();
@@ -148,8 +151,8 @@ mod tests {
         assert_relative_eq!(parameters.s5p, 1.0, max_relative = 1e-14);
         assert_relative_eq!(parameters.s5v, (PI / n as f64).cos(), max_relative = 1e-14);
         assert_eq!(parameters.s10z, parameters.s5p + parameters.s5v);
-        // Second differences: relative error (2π/n)²/12. At the samples beside a pit the curvature is cos(π/n) times that
-        // of the pit.
+        // Second differences: relative error (2π/n)²/12. At the samples beside a pit the curvature is
+        // cos(π/n) times that of the pit.
         let curvature: f64 = wavelength.map(|wavelength| 0.25 * (TAU / wavelength).powi(2)).iter().sum();
         assert_relative_eq!(parameters.spc, curvature, max_relative = PI * PI / 3.0 * order);
         assert_relative_eq!(
@@ -160,8 +163,9 @@ mod tests {
         // The line of samples on each course line of the dales belongs to one of both sides.
         assert_relative_eq!(parameters.sha, square, max_relative = 1e-13);
         assert_relative_eq!(parameters.sda, square, max_relative = 2.0 / n as f64 + order);
-        // The saddle found is s = ½ (1 − cos π/n) too high, over λ²/2: a fraction π⁴/16n² of the volume 2λ²/π². The sum
-        // over the samples, in place of the integral up to the kink along |x| + |y| = λ/2, has an error of at most π²/4n².
+        // The saddle found is s = ½ (1 − cos π/n) too high, over λ²/2: a fraction π⁴/16n² of the volume
+        // 2λ²/π². The sum over the samples, in place of the integral up to the kink along |x| + |y| = λ/2,
+        // has an error of at most π²/4n².
         let (volume, error) = (2.0 * square / (PI * PI), (PI.powi(4) / 16.0 + PI * PI / 4.0) * order);
         assert_relative_eq!(parameters.shv, volume, max_relative = error);
         assert_relative_eq!(parameters.sdv, volume, max_relative = error);
@@ -173,7 +177,8 @@ mod tests {
             |ix: usize, iy: usize| -(ix as f64 - 20.0).powi(2) / 8.0 - (iy as f64 - 20.0).powi(2) / 2.0;
         let parameters = topography([41, 41], [1.0, 2.0], height).feature_parameters(WOLF_PRUNING).unwrap();
         assert_relative_eq!(parameters.spd, 1.0 / 3362.0, max_relative = 1e-14);
-        // 1/R is 1/4 along both directions; its four pits are in the corners, where the curvature is undefined.
+        // 1/R is 1/4 along both directions; its four pits are in the corners, where the curvature is
+        // undefined.
         assert_relative_eq!(parameters.spc, 0.25, max_relative = 1e-12);
         assert_relative_eq!(parameters.svd, 4.0 / 3362.0, max_relative = 1e-14);
         assert!(parameters.svc.is_nan());

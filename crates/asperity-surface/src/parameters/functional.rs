@@ -6,8 +6,8 @@ use super::stratified::Core;
 use crate::Topography;
 
 family! {
-    /// Functional parameters of ISO 25178-2:2021, 4.5, from the [`BearingCurve`] of the defined samples, at the default
-    /// ratios of ISO 25178-3.
+    /// Functional parameters of ISO 25178-2:2021, 4.5, from the [`BearingCurve`] of the defined samples, at
+    /// the default ratios of ISO 25178-3.
     ///
     /// NaN without a defined sample; those of the core also without a core.
     FunctionalParameters: "functional" {

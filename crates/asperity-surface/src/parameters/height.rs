@@ -4,7 +4,8 @@ use super::row::family;
 use crate::Topography;
 
 family! {
-    /// Height parameters of ISO 25178-2:2021, 4.2, over the defined samples, with heights relative to their mean.
+    /// Height parameters of ISO 25178-2:2021, 4.2, over the defined samples, with heights relative to their
+    /// mean.
     ///
     /// NaN without a defined sample; `ssk` and `sku` also for a plane.
     HeightParameters: "height" {

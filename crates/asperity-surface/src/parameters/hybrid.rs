@@ -12,15 +12,17 @@ family! {
     ///
     /// ∂z/∂x = (z₊₃ − 9 z₊₂ + 45 z₊₁ − 45 z₋₁ + 9 z₋₂ − z₋₃)/60Δx,
     ///
-    /// which are accurate to the sixth power of Δx/wavelength and too small below about four samples per wave. NaN if no
-    /// sample has three defined neighbours on every side; the slope along a direction with one sample is 0.
+    /// which are accurate to the sixth power of Δx/wavelength and too small below about four samples per
+    /// wave. NaN if no sample has three defined neighbours on every side; the slope along a direction with
+    /// one sample is 0.
     HybridParameters: "hybrid" {
         /// Root mean square gradient, √⟨(∂z/∂x)² + (∂z/∂y)²⟩.
         sdq: Number as "Sdq",
         /// Developed interfacial area ratio, ⟨√(1 + (∂z/∂x)² + (∂z/∂y)²) − 1⟩.
         ///
-        /// The integral of the standard. The area of triangles between the samples, which some programs use instead, has an
-        /// error of the second power of Δx/wavelength. At most Sdq²/2, and close to it if slopes are small.
+        /// The integral of the standard. The area of triangles between the samples, which some programs use
+        /// instead, has an error of the second power of Δx/wavelength. At most Sdq²/2, and close to it if
+        /// slopes are small.
         sdr: Share as "Sdr",
     }
 }
@@ -40,7 +42,8 @@ impl HybridParameters {
     }
 }
 
-/// √(1 + s) − 1 without cancellation: the relative excess area over the projection for the squared slope `square`.
+/// √(1 + s) − 1 without cancellation: the relative excess area over the projection for the squared slope
+/// `square`.
 pub(crate) fn area_excess(square: f64) -> f64 {
     square / ((1.0 + square).sqrt() + 1.0)
 }
@@ -65,8 +68,8 @@ mod tests {
         assert_relative_eq!(parameters.sdq, steepest / 2f64.sqrt(), max_relative = 1.1e-7);
         let excess = |t: f64| (1.0 + (steepest * (TAU * t).sin()).powi(2)).sqrt() - 1.0;
         let exact = asperity_base::math::integrate(0.0, 1.0, excess);
-        // The trapezoidal rule for a periodic function: negligible compared with the error of the slope, which is at most
-        // doubled.
+        // The trapezoidal rule for a periodic function: negligible compared with the error of the slope,
+        // which is at most doubled.
         assert_relative_eq!(parameters.sdr, exact, max_relative = 2.2e-7);
     }
 

@@ -28,10 +28,11 @@ use crate::{NEVER, Stop, Topography, WOLF_PRUNING, check_stop};
 use asperity_base::error::Result;
 use asperity_base::units::Metre;
 
-/// Areal roughness parameters over the defined samples, by families; serialised as one map from symbol to value.
+/// Areal roughness parameters over the defined samples, by families; serialised as one map from symbol to
+/// value.
 ///
-/// No filter is applied: level and filter first. Values are SI, ratios are fractions of one. An undefined parameter is NaN,
-/// `null` in JSON; its family describes when this occurs.
+/// No filter is applied: level and filter first. Values are SI, ratios are fractions of one. An undefined
+/// parameter is NaN, `null` in JSON; its family describes when this occurs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Parameters {

@@ -55,8 +55,8 @@ impl Unit {
         }
     }
 
-    /// Returns the multiple for a column of `values`, SI: the one that suits the value a third of the way up from the
-    /// smallest.
+    /// Returns the multiple for a column of `values`, SI: the one that suits the value a third of the way up
+    /// from the smallest.
     pub fn multiple(self, values: impl IntoIterator<Item = f64>) -> Multiple {
         let sizes = values.into_iter().map(f64::abs).filter(|size| size.is_finite() && *size > 0.0);
         let mut sizes: Vec<f64> = sizes.collect();
@@ -90,8 +90,9 @@ impl Unit {
     }
 }
 
-/// Defines a family of parameters from a list of `field: Unit as "Symbol"`, each below its doc comment: a struct of public
-/// `f64`, serialised under the symbols, and its [`Parameter`] rows, whose meaning is the first line of the comment.
+/// Defines a family of parameters from a list of `field: Unit as "Symbol"`, each below its doc comment: a
+/// struct of public `f64`, serialised under the symbols, and its [`Parameter`] rows, whose meaning is the
+/// first line of the comment.
 macro_rules! family {
     (
         $(#[$about:meta])*

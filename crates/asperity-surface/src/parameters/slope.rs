@@ -9,8 +9,8 @@ use asperity_base::grid::flat;
 ///
 /// dz/dx = (pair(3) − 9 pair(2) + 45 pair(1))/60Δx,
 ///
-/// The local slope of ISO 4287, accurate to the sixth power of Δx/wavelength and too small below about four samples per
-/// wave.
+/// The local slope of ISO 4287, accurate to the sixth power of Δx/wavelength and too small below about four
+/// samples per wave.
 pub(crate) fn derivative(pair: impl Fn(usize) -> f64, pitch: f64) -> f64 {
     (pair(3) - 9.0 * pair(2) + 45.0 * pair(1)) / (60.0 * pitch)
 }
@@ -18,7 +18,8 @@ pub(crate) fn derivative(pair: impl Fn(usize) -> f64, pitch: f64) -> f64 {
 /// Number of samples on either side for a [`derivative`].
 pub(crate) const REACH: usize = 3;
 
-/// Iterates over ∂z/∂x and ∂z/∂y at each sample of some `rows` with three defined neighbours on every side, x slowest.
+/// Iterates over ∂z/∂x and ∂z/∂y at each sample of some `rows` with three defined neighbours on every side, x
+/// slowest.
 ///
 /// The slope along a direction with one sample is 0.
 pub(crate) fn gradients(topography: &Topography, rows: Range<usize>) -> impl Iterator<Item = [f64; 2]> {

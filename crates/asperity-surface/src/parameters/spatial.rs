@@ -19,24 +19,25 @@ family! {
     SpatialParameters: "spatial" {
         /// Autocorrelation length, of the fastest decay to 0.2.
         ///
-        /// By [`Correlation`], with lags up to half the topography, and undefined samples left out. NaN if it does not
-        /// decay to this level in any direction.
+        /// By [`Correlation`], with lags up to half the topography, and undefined samples left out. NaN if it
+        /// does not decay to this level in any direction.
         sal: Length as "Sal",
         /// Texture aspect ratio, the fastest decay over the slowest; 1 if isotropic.
         ///
-        /// NaN if the autocorrelation stays above 0.2 up to half the topography in some direction: the lay is then too long
-        /// to be measured.
+        /// NaN if the autocorrelation stays above 0.2 up to half the topography in some direction: the lay is
+        /// then too long to be measured.
         str: Number as "Str",
         /// Texture direction, of the largest angular spectrum, from the x axis towards the y axis.
         ///
-        /// 0 ≤ Std < π, to half a degree, by [`Spectrum::angular`] with Hann's window. It is the direction of the wave
-        /// vectors. The lay is at right angles to it, so that 0 means grooves along y. It is meaningless for an isotropic
-        /// surface, whose Str is near 1. NaN if all heights are equal, and for a single line of samples.
+        /// 0 ≤ Std < π, to half a degree, by [`Spectrum::angular`] with Hann's window. It is the direction of
+        /// the wave vectors. The lay is at right angles to it, so that 0 means grooves along y. It is
+        /// meaningless for an isotropic surface, whose Str is near 1. NaN if all heights are equal, and for a
+        /// single line of samples.
         std: Angle as "Std",
         /// Dominant spatial wavelength, of the largest amplitude in the Fourier transform.
         ///
-        /// By the spectrum with Hann's window, interpolated between its wave numbers as for a single sinusoid (Grandke,
-        /// IEEE Trans. Instrum. Meas. 32, 350, 1983). NaN if all heights are equal.
+        /// By the spectrum with Hann's window, interpolated between its wave numbers as for a single sinusoid
+        /// (Grandke, IEEE Trans. Instrum. Meas. 32, 350, 1983). NaN if all heights are equal.
         ssw: Length as "Ssw",
     }
 }
@@ -77,7 +78,8 @@ fn dominant_wavelength(spectrum: &Spectrum) -> Metre {
     TAU / q[0].hypot(q[1])
 }
 
-/// Returns the distance of a sinusoid's wave number from that of the highest entry along `axis`, in steps, −½ to ½.
+/// Returns the distance of a sinusoid's wave number from that of the highest entry along `axis`, in steps, −½
+/// to ½.
 ///
 /// With Hann's window its amplitude at the larger neighbour is (1 + δ)/(2 − δ) of the highest.
 fn offset(spectrum: &Spectrum, highest: [usize; 2], axis: usize) -> f64 {
@@ -121,7 +123,8 @@ mod tests {
             sal += parameters.sal / seeds as f64;
             aspect += parameters.str / seeds as f64;
         }
-        // R scatters by 1/√spots, and by its mean, which is set to 0. Its slope at 0.2 is 0.2 ln 5 per decay length.
+        // R scatters by 1/√spots, and by its mean, which is set to 0. Its slope at 0.2 is 0.2 ln 5 per decay
+        // length.
         let spots = 512.0 * 512.0 / (TAU * beta[0] * beta[1] / 4.605f64.powi(2));
         let error = (4.0 / (seeds as f64 * spots).sqrt() + 2.0 / spots) / (0.2 * 5f64.ln());
         assert_relative_eq!(sal, 8.0 * 5f64.log10(), max_relative = error);
@@ -163,8 +166,8 @@ mod tests {
     #[test]
     fn grooves_longer_than_the_map_have_no_aspect_ratio() {
         let found = SpatialParameters::of(&wave([200, 150], [0.5, 1.0], [TAU / 10.0, 0.0]));
-        // R = cos(2πx/λ)/2 reaches 0.2 of R(0) at λ arccos(0.2)/2π. The error of its estimate is the fraction of a wave at
-        // the ends, λ/πL.
+        // R = cos(2πx/λ)/2 reaches 0.2 of R(0) at λ arccos(0.2)/2π. The error of its estimate is the fraction
+        // of a wave at the ends, λ/πL.
         assert_relative_eq!(found.sal, 10.0 * 0.2f64.acos() / TAU, max_relative = 10.0 / (TAU / 2.0 * 100.0));
         assert!(found.str.is_nan());
         assert_eq!(found.std, 0.0);

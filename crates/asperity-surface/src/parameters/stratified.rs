@@ -3,7 +3,8 @@
 use super::bearing::BearingCurve;
 use asperity_base::units::Metre;
 
-/// The core of a bearing curve with its peaks and pits: Sk, Spk and related parameters, by the letters after S or R.
+/// The core of a bearing curve with its peaks and pits: Sk, Spk and related parameters, by the letters after
+/// S or R.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Core {
     /// Height of the equivalent line at the ratio 0, relative to the mean.
@@ -36,9 +37,10 @@ const CENTRAL_REGION: f64 = 0.4;
 impl BearingCurve {
     /// Computes the parameters of stratified surfaces, Sk and related ones.
     ///
-    /// A least-squares line of the heights is fitted to the 40 % of the ratio with the flattest secant; the first if there
-    /// are several. The core ends where this line meets the ratios 0 and 1. ISO 13565-2:1996, 4.2, adopted by ISO 25178-2
-    /// and ISO 21920-2. `None` below about five samples, where 40 % contain fewer than two.
+    /// A least-squares line of the heights is fitted to the 40 % of the ratio with the flattest secant; the
+    /// first if there are several. The core ends where this line meets the ratios 0 and 1. ISO 13565-2:1996,
+    /// 4.2, adopted by ISO 25178-2 and ISO 21920-2. `None` below about five samples, where 40 % contain fewer
+    /// than two.
     pub fn core(&self) -> Option<Core> {
         let [upper, lower] = self.equivalent_line()?;
         let (mrk1, mrk2) = (self.ratio(upper), self.ratio(lower));
@@ -79,8 +81,8 @@ impl BearingCurve {
 
     /// Returns the ratio at which the flattest 40 % of the curve begin.
     ///
-    /// The drop over 40 % is linear in their start between the places where either end passes a sample, so that one of
-    /// these places is the minimum.
+    /// The drop over 40 % is linear in their start between the places where either end passes a sample, so
+    /// that one of these places is the minimum.
     fn central_region(&self) -> f64 {
         let n = self.heights().len();
         let last = 1.0 - CENTRAL_REGION;
@@ -122,7 +124,8 @@ mod tests {
         let n = 20_000;
         let off = 0.51 * PI / f64::from(n);
         let volume = |p: f64| (PI * p).sin() / PI - p * (PI * p).cos();
-        // The secant is as flat from 0 to 40 % as from 60 to 100 %: the first counts. Least squares of cos πp:
+        // The secant is as flat from 0 to 40 % as from 60 to 100 %: the first counts. Least squares of cos
+        // πp:
         let w = CENTRAL_REGION;
         let slope = 12.0 / w.powi(3) * (0.5 * w * (PI * w).sin() / PI + ((PI * w).cos() - 1.0) / PI.powi(2));
         let upper = (PI * w).sin() / (PI * w) - 0.5 * w * slope;
@@ -149,7 +152,8 @@ mod tests {
         let moment = integrate(-end, end, |x| (0.5 - above(x)) * x * density(x));
         let sk = 12.0 / CENTRAL_REGION.powi(3) * moment;
         let core = gaussian(n).core().unwrap();
-        // With one sample more or less: over the width w, Sk = √2π (1 + πw²/20 …), plus a fifth for the next order.
+        // With one sample more or less: over the width w, Sk = √2π (1 + πw²/20 …), plus a fifth for the next
+        // order.
         assert_relative_eq!(core.k, sk, max_relative = 1.2 * PI / 10.0 * CENTRAL_REGION * tail);
         assert_abs_diff_eq!(core.mrk1, above(0.5 * sk), epsilon = tail);
         assert_abs_diff_eq!(core.pk, 2.0 * volume(0.5 * sk) / above(0.5 * sk), epsilon = 20.0 * tail);

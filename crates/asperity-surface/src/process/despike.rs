@@ -19,21 +19,23 @@ const SURROUNDINGS: usize = 2;
 const OPEN: f64 = 0.25;
 
 impl Topography {
-    /// Makes the spikes of the topography undefined: samples, and groups of adjacent samples up to about 5 × 5, whose
-    /// deviation exceeds `factor` standard deviations. It must exceed them both for the surroundings and for the deviations
-    /// over the whole topography. Factors of 5 to 10 are usual.
+    /// Makes the spikes of the topography undefined: samples, and groups of adjacent samples up to about 5 ×
+    /// 5, whose deviation exceeds `factor` standard deviations. It must exceed them both for the surroundings
+    /// and for the deviations over the whole topography. Factors of 5 to 10 are usual.
     ///
-    /// Candidates have such a deviation from the median of 5 × 5 samples. First every second sample is used, so that a
-    /// spike of 5 × 5 is not a majority, then every one. This is Hampel's identifier (Davies & Gather, J. Am. Stat. Assoc.
-    /// 88, 782 (1993)), which preserves a rough part of a smooth surface. Adjacent candidates with similar deviations, of
-    /// the same sign and within a factor of two, are judged together, using the samples around all of them, within two of
-    /// any. They stay if they are longer along x or y than the 5 samples, like a groove, or if they continue. They continue
-    /// if more than a quarter of the samples next to them stand out by half as much as they do, as at the corner of a step.
+    /// Candidates have such a deviation from the median of 5 × 5 samples. First every second sample is used,
+    /// so that a spike of 5 × 5 is not a majority, then every one. This is Hampel's identifier (Davies &
+    /// Gather, J. Am. Stat. Assoc. 88, 782 (1993)), which preserves a rough part of a smooth surface.
+    /// Adjacent candidates with similar deviations, of the same sign and within a factor of two, are judged
+    /// together, using the samples around all of them, within two of any. They stay if they are longer along
+    /// x or y than the 5 samples, like a groove, or if they continue. They continue if more than a quarter of
+    /// the samples next to them stand out by half as much as they do, as at the corner of a step.
     ///
-    /// The standard deviations are robust: 1.4826 times the median of the absolute deviations, on which spikes have little
-    /// effect. If the median over the whole topography is 0, because more than half of the samples do not deviate, it is
-    /// 1.2533 times their mean (Iglewicz & Hoaglin, How to Detect and Handle Outliers, 1993). Only defined samples count.
-    /// Towards a boundary the neighbourhood of the median shrinks symmetrically, so that a plane has no spikes.
+    /// The standard deviations are robust: 1.4826 times the median of the absolute deviations, on which
+    /// spikes have little effect. If the median over the whole topography is 0, because more than half of the
+    /// samples do not deviate, it is 1.2533 times their mean (Iglewicz & Hoaglin, How to Detect and Handle
+    /// Outliers, 1993). Only defined samples count. Towards a boundary the neighbourhood of the median
+    /// shrinks symmetrically, so that a plane has no spikes.
     ///
     /// # Errors
     /// [`asperity_base::Error::OutOfRange`] unless the factor is above 0.
@@ -128,8 +130,8 @@ fn outliers(z: &Field, group: Vec<(usize, usize)>, factor: f64, sigma: f64) -> V
     if open as f64 > OPEN * next.len() as f64 { Vec::new() } else { found }
 }
 
-/// Groups the candidates, which have a nonzero deviation. Adjacent candidates, also at a corner, belong together if their
-/// deviations have the same sign and agree within a factor of two. Each group is sorted.
+/// Groups the candidates, which have a nonzero deviation. Adjacent candidates, also at a corner, belong
+/// together if their deviations have the same sign and agree within a factor of two. Each group is sorted.
 fn groups(mut candidates: Field) -> Vec<Vec<(usize, usize)>> {
     let starts: Vec<_> = candidates.indexed_iter().filter(|(_, d)| **d != 0.0).map(|(at, _)| at).collect();
     let mut groups = Vec::new();
@@ -163,7 +165,8 @@ fn extent(group: &[(usize, usize)]) -> usize {
     along(|at| at.0).max(along(|at| at.1))
 }
 
-/// Height of each sample above the median of its neighbourhood, which shrinks symmetrically towards a boundary.
+/// Height of each sample above the median of its neighbourhood, which shrinks symmetrically towards a
+/// boundary.
 fn deviations(z: &Field, stride: usize, stop: Stop<'_>) -> Result<Field> {
     let mut deviations = z.clone();
     let rows = deviations.as_slice_mut().expect("fields are in standard layout").chunks_mut(z.ncols());

@@ -14,8 +14,8 @@ pub enum Fill {
     None,
     /// The height of the nearest defined sample, with the distance in metres.
     Nearest,
-    /// Laplace's equation ∂²z/∂x² + ∂²z/∂y² = 0 with the defined samples as boundary values: a membrane over the hole,
-    /// without extrema inside. The boundary of the grid is free (zero slope across it).
+    /// Laplace's equation ∂²z/∂x² + ∂²z/∂y² = 0 with the defined samples as boundary values: a membrane over
+    /// the hole, without extrema inside. The boundary of the grid is free (zero slope across it).
     Harmonic,
 }
 
@@ -25,8 +25,8 @@ impl Topography {
     /// Fills every undefined sample.
     ///
     /// # Errors
-    /// [`Error::UndefinedSamples`] if there are any and `fill` is [`Fill::None`]; [`Error::NothingDefined`] if no sample is
-    /// defined.
+    /// [`Error::UndefinedSamples`] if there are any and `fill` is [`Fill::None`]; [`Error::NothingDefined`]
+    /// if no sample is defined.
     pub fn fill(mut self, fill: Fill) -> Result<Self> {
         let undefined = self.undefined();
         let samples = self.grid().cells();
@@ -46,8 +46,8 @@ impl Topography {
     }
 }
 
-/// Gives each undefined sample the height of the nearest defined one. It uses the exact Euclidean distance transform, first
-/// along y, then along x by the lower envelope of the parabolas of squared distance.
+/// Gives each undefined sample the height of the nearest defined one. It uses the exact Euclidean distance
+/// transform, first along y, then along x by the lower envelope of the parabolas of squared distance.
 ///
 /// Felzenszwalb & Huttenlocher, Theory of Computing 8, 415 (2012). Linear in the number of samples.
 fn nearest(grid: &Grid, z: &mut Field) {
@@ -57,7 +57,8 @@ fn nearest(grid: &Grid, z: &mut Field) {
     let source = z.clone();
     let ratio = (grid.pitch[1] / grid.pitch[0]).powi(2);
     for iy in 0..ny {
-        // Squared distance, in units of the pitch along x, from (ix, iy) to the nearest defined sample of line ix.
+        // Squared distance, in units of the pitch along x, from (ix, iy) to the nearest defined sample of
+        // line ix.
         let offset = |ix: usize| in_line[ix][iy].map(|jy| jy.abs_diff(iy).pow(2) as f64 * ratio);
         // The envelope: its lines, and the x from which each is the nearest.
         let mut envelope: Vec<(usize, f64)> = Vec::new();

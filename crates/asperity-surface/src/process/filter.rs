@@ -16,14 +16,16 @@ use asperity_transforms::{Fft, Precision};
 /// Method to compute the smooth surface of a filter.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Filter {
-    /// The mean of the neighbouring heights weighted by the areal Gaussian of ISO 16610-61: w = exp(−π r²/(αλ)²)/(αλ)²,
-    /// α = √(ln 2/π). A wave of length Λ keeps the fraction exp(−π(αλ/Λ)²), which is half at Λ = λ.
+    /// The mean of the neighbouring heights weighted by the areal Gaussian of ISO 16610-61: w = exp(−π
+    /// r²/(αλ)²)/(αλ)², α = √(ln 2/π). A wave of length Λ keeps the fraction exp(−π(αλ/Λ)²), which is half at
+    /// Λ = λ.
     #[default]
     Gaussian,
-    /// The weighted mean of the neighbouring heights, with weights that also decrease with the distance r from the smooth
-    /// surface, as in ISO 16610-71. Deep scratches and high peaks then do not distort it. The additional weight is Tukey's
-    /// biweight, (1 − (r/c)²)² for |r| < c and 0 beyond. c is 4.4478 times the median of |r|, iterated until c converges to
-    /// 10⁻³. The regression is of order 0, that of the standard of order 2.
+    /// The weighted mean of the neighbouring heights, with weights that also decrease with the distance r
+    /// from the smooth surface, as in ISO 16610-71. Deep scratches and high peaks then do not distort it. The
+    /// additional weight is Tukey's biweight, (1 − (r/c)²)² for |r| < c and 0 beyond. c is 4.4478 times the
+    /// median of |r|, iterated until c converges to 10⁻³. The regression is of order 0, that of the standard
+    /// of order 2.
     Robust,
 }
 
@@ -32,9 +34,9 @@ choice!(Filter: "gaussian" => Gaussian, "robust" => Robust);
 impl Topography {
     /// Removes the waves shorter than the nesting index: the S-filter of ISO 25178-2, a low-pass filter.
     ///
-    /// The mean is over the defined samples of the grid, so that a constant height is preserved and holes have no
-    /// influence. On a slope the smooth surface is distorted within half a cut-off of the boundary. Undefined samples stay
-    /// undefined.
+    /// The mean is over the defined samples of the grid, so that a constant height is preserved and holes
+    /// have no influence. On a slope the smooth surface is distorted within half a cut-off of the boundary.
+    /// Undefined samples stay undefined.
     ///
     /// # Errors
     /// [`asperity_base::Error::OutOfRange`] if the nesting index is below two pitches.
@@ -44,8 +46,8 @@ impl Topography {
         Ok(self)
     }
 
-    /// Removes the waves longer than the nesting index: the L-filter of ISO 25178-2, a high-pass filter. It subtracts the
-    /// result of the S-filter with the same index.
+    /// Removes the waves longer than the nesting index: the L-filter of ISO 25178-2, a high-pass filter. It
+    /// subtracts the result of the S-filter with the same index.
     ///
     /// # Errors
     /// The errors of [`Topography::s_filter`].
@@ -79,7 +81,8 @@ fn smooth(topography: &Topography, name: &'static str, length: Metre, filter: Fi
 }
 
 fn robust(gaussian: &Gaussian, z: &Field) -> Field {
-    /// Constant of the standard: 3 times the ratio of standard deviation to median of |r| for Gaussian heights.
+    /// Constant of the standard: 3 times the ratio of standard deviation to median of |r| for Gaussian
+    /// heights.
     const BIWEIGHT: f64 = 4.4478;
     /// Relative change of the scale at convergence.
     const TOLERANCE: f64 = 1e-3;
@@ -102,7 +105,8 @@ fn robust(gaussian: &Gaussian, z: &Field) -> Field {
     smooth
 }
 
-/// Weighted means of the samples around each one; the weight is a Gaussian of the distance along x times one along y.
+/// Weighted means of the samples around each one; the weight is a Gaussian of the distance along x times one
+/// along y.
 struct Gaussian {
     axes: [Line; 2],
 }
@@ -112,8 +116,8 @@ impl Gaussian {
         Self { axes: [0, 1].map(|axis| Line::new(grid.shape[axis], length / grid.pitch[axis])) }
     }
 
-    /// Computes Σ w δ z/Σ w δ over the defined samples, with δ the `weight` of the sample; `before` where all weights
-    /// vanish.
+    /// Computes Σ w δ z/Σ w δ over the defined samples, with δ the `weight` of the sample; `before` where all
+    /// weights vanish.
     fn mean(&self, z: &Field, weight: impl Fn([usize; 2]) -> f64, before: Option<&Field>) -> Field {
         /// Fraction of the full weight below which only round-off remains.
         const VANISHED: f64 = 1e-9;
@@ -209,7 +213,8 @@ mod tests {
             let inverse2 = (1.0 / long_x).powi(2) + (1.0 / long_y).powi(2);
             let share = (-LN_2 * (cutoff * 1e6).powi(2) * inverse2).exp();
             let rough = surface.clone().l_filter(cutoff, Filter::Gaussian).unwrap();
-            // Beyond the reach of the boundary, the sum over samples has only the aliasing error exp(−ln 2 (λ/p − λ/Λ)²).
+            // Beyond the reach of the boundary, the sum over samples has only the aliasing error exp(−ln 2
+            // (λ/p − λ/Λ)²).
             for at in [[80, 60], [50, 40], [101, 77]] {
                 let exact = surface.heights()[at];
                 assert!((smooth.heights()[at] - share * exact).abs() < 1e-20, "{long_x} {long_y}");

@@ -10,8 +10,8 @@ const MAX_ITERATIONS: usize = 200;
 
 /// Replaces the undefined heights by the discrete harmonic surface through the defined ones.
 ///
-/// The five-point equation is Σ g (z − z') = 0 over the neighbours z', with g = Δy/Δx along x and Δx/Δy along y. Neighbours
-/// beyond the grid are left out, so that the surface has zero slope at its boundary.
+/// The five-point equation is Σ g (z − z') = 0 over the neighbours z', with g = Δy/Δx along x and Δx/Δy along
+/// y. Neighbours beyond the grid are left out, so that the surface has zero slope at its boundary.
 ///
 /// # Panics
 /// If no height is defined.
@@ -30,8 +30,8 @@ pub(super) fn harmonic(grid: &Grid, z: &mut Field) {
 
 /// A graph of nodes with up to four neighbours, connected by couplings, some of them to ground.
 ///
-/// Its matrix A has ground + couplings on the diagonal and −couplings off it. It is symmetric, and positive definite
-/// if every part has a connection to ground.
+/// Its matrix A has ground + couplings on the diagonal and −couplings off it. It is symmetric, and positive
+/// definite if every part has a connection to ground.
 struct Network {
     /// Coupling from each node to ground.
     ground: Vec<f64>,
@@ -43,8 +43,8 @@ struct Network {
 }
 
 impl Network {
-    /// Creates the network with undefined samples as nodes and defined ones as ground; also returns the currents from
-    /// ground.
+    /// Creates the network with undefined samples as nodes and defined ones as ground; also returns the
+    /// currents from ground.
     fn of_holes(grid: &Grid, z: &Field, mean: f64, cells: &[[usize; 2]]) -> (Self, Vec<f64>) {
         let number = numbering(cells, grid.shape);
         let ratio = grid.pitch[1] / grid.pitch[0];
@@ -81,11 +81,12 @@ impl Network {
         }
     }
 
-    /// Creates the coarse network, joining `block` nodes, 1 or 2, in each direction; also returns the coarse node of each
-    /// node. `shape` is that of the grid of this network.
+    /// Creates the coarse network, joining `block` nodes, 1 or 2, in each direction; also returns the coarse
+    /// node of each node. `shape` is that of the grid of this network.
     ///
-    /// The equation of a coarse node is the sum of those of its nodes (Galerkin, constant prolongation). This makes smooth
-    /// modes twice too stiff along a joined direction, hence the factor one half. Braess, Computing 55, 379 (1995).
+    /// The equation of a coarse node is the sum of those of its nodes (Galerkin, constant prolongation). This
+    /// makes smooth modes twice too stiff along a joined direction, hence the factor one half. Braess,
+    /// Computing 55, 379 (1995).
     fn joined(&self, shape: [usize; 2], block: [usize; 2]) -> (Self, Vec<u32>) {
         let coarse = [shape[0].div_ceil(block[0]), shape[1].div_ceil(block[1])];
         let mut number = vec![NOWHERE; coarse[0] * coarse[1]];
@@ -199,8 +200,8 @@ impl Multigrid {
         Self { tiers }
     }
 
-    /// Computes the potentials for the currents `sources` into the nodes of the finest network; also returns the number of
-    /// iterations.
+    /// Computes the potentials for the currents `sources` into the nodes of the finest network; also returns
+    /// the number of iterations.
     fn solve(&self, sources: &[f64]) -> (Vec<f64>, usize) {
         let tier = &self.tiers[0];
         let mut x = vec![0.0; sources.len()];
@@ -227,8 +228,8 @@ impl Multigrid {
         (x, iterations)
     }
 
-    /// Applies an approximate A⁻¹ to `right` on level `depth`, symmetrically: forward Gauss–Seidel, the coarser levels,
-    /// backward Gauss–Seidel.
+    /// Applies an approximate A⁻¹ to `right` on level `depth`, symmetrically: forward Gauss–Seidel, the
+    /// coarser levels, backward Gauss–Seidel.
     fn cycle(&self, depth: usize, right: &[f64]) -> Vec<f64> {
         let tier = &self.tiers[depth];
         let nodes = right.len();
@@ -247,8 +248,8 @@ impl Multigrid {
     }
 }
 
-/// Returns the number of nodes to join along each direction: 2 along the smaller pitch, and along the other if its pitch is
-/// less than twice as large.
+/// Returns the number of nodes to join along each direction: 2 along the smaller pitch, and along the other
+/// if its pitch is less than twice as large.
 fn block(shape: [usize; 2], pitch: [Metre; 2]) -> [usize; 2] {
     std::array::from_fn(|axis| {
         let other = 1 - axis;

@@ -1,5 +1,5 @@
-//! Preparation of a measured topography for mounting: windowing, despiking, filling, form removal, rotation, filters,
-//! resampling, taper. [`Preparation`] applies all steps in a fixed order.
+//! Preparation of a measured topography for mounting: windowing, despiking, filling, form removal, rotation,
+//! filters, resampling, taper. [`Preparation`] applies all steps in a fixed order.
 
 mod despike;
 mod fill;

@@ -3,11 +3,13 @@
 use super::normal_equations::NormalEquations;
 use asperity_base::grid::Field;
 
-/// Products of Legendre polynomials P_a(ξ) P_b(η), a + b ≤ order. ξ and η range from −1 to 1 over the part of the field
-/// with defined samples. There the products are nearly orthogonal, so that high orders lose no digits.
+/// Products of Legendre polynomials P_a(ξ) P_b(η), a + b ≤ order. ξ and η range from −1 to 1 over the part of
+/// the field with defined samples. There the products are nearly orthogonal, so that high orders lose no
+/// digits.
 pub(super) struct Polynomial {
     order: usize,
-    /// First row of the defined part, with the polynomials P_0 … P_order on each of its rows; the same for the columns.
+    /// First row of the defined part, with the polynomials P_0 … P_order on each of its rows; the same for
+    /// the columns.
     along: [(usize, Vec<Vec<f64>>); 2],
 }
 

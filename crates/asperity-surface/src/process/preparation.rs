@@ -17,10 +17,10 @@ use asperity_derive::Part;
 
 /// Preparation steps of a topography; none by default.
 ///
-/// The steps act in the order of the fields. First are the effects of the instrument: the part to keep, spikes, holes. Then
-/// comes the form, which needs defined heights without spikes, then the direction. The filters follow, because they need a
-/// surface without form. Then comes the grid, whose cells may be as large as the shortest remaining wave allows, and last
-/// the taper.
+/// The steps act in the order of the fields. First are the effects of the instrument: the part to keep,
+/// spikes, holes. Then comes the form, which needs defined heights without spikes, then the direction. The
+/// filters follow, because they need a surface without form. Then comes the grid, whose cells may be as large
+/// as the shortest remaining wave allows, and last the taper.
 #[derive(Part, Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[part(check = filters_leave_waves)]
 pub struct Preparation {
@@ -35,14 +35,15 @@ pub struct Preparation {
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window: Option<[usize; 4]>,
-    /// Turns spikes into missing heights: samples that deviate from their surroundings by more than this number of standard deviations, usually
-    /// 5 to 10.
+    /// Turns spikes into missing heights: samples that deviate from their surroundings by more than this
+    /// number of standard deviations, usually 5 to 10.
     ///
     /// The factor of [`Topography::despike`].
     #[key(number = "a number", range = AboveZero, absent = "nothing", example = "6", with = ["file", "given"])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub despike: Option<f64>,
-    /// Treatment of missing heights: with `"none"` they are an error, `"harmonic"` is a membrane over each hole.
+    /// Treatment of missing heights: with `"none"` they are an error, `"harmonic"` is a membrane over each
+    /// hole.
     ///
     /// With [`Fill::None`] undefined samples stay undefined.
     #[key(choice, default = Fill::None, example = "\"harmonic\"", with = ["file", "given"])]
@@ -137,10 +138,12 @@ impl Preparation {
         }
     }
 
-    /// Applies all steps; returns the topography and the findings. Samples stay undefined if no step fills them.
+    /// Applies all steps; returns the topography and the findings. Samples stay undefined if no step fills
+    /// them.
     ///
     /// # Errors
-    /// The errors of the steps; [`asperity_base::Error::OutOfRange`] also if no waves remain between S-filter and L-filter.
+    /// The errors of the steps; [`asperity_base::Error::OutOfRange`] also if no waves remain between S-filter
+    /// and L-filter.
     pub fn apply(&self, topography: Topography) -> Result<(Topography, Findings)> {
         self.apply_until(topography, NEVER)
     }

@@ -11,8 +11,8 @@ use ndarray::{Axis, Zip};
 /// Interpolation between samples to smaller cells.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Interpolation {
-    /// Linear interpolation: heights stay within the range of the samples, and short waves are flattened. Second order in
-    /// the pitch.
+    /// Linear interpolation: heights stay within the range of the samples, and short waves are flattened.
+    /// Second order in the pitch.
     #[default]
     Linear,
     /// Cubic spline through all samples: smooth, of fourth order, with overshoot at steps.
@@ -24,13 +24,14 @@ choice!(Interpolation: "linear" => Linear, "spline" => Spline);
 impl Topography {
     /// Resamples to `shape` cells on the same extent.
     ///
-    /// Each direction is treated separately. To larger cells, a new height is the average over the new cell. Within a
-    /// partly covered old cell, the height varies linearly with the slope between its neighbours. For a whole ratio this is
-    /// the plain average of the old cells; for any ratio it preserves the mean height and planes. A wave of length Λ is
-    /// reduced to sin(πp/Λ)/(πp/Λ) at the new pitch p. Waves shorter than two new cells are therefore aliased by at most
-    /// 2/π; [`Topography::s_filter`] removes the rest. To smaller cells, heights are interpolated between the centres of
-    /// the old cells, and constant beyond the outermost ones. A height that uses an undefined sample, or lies beside one,
-    /// is undefined; a spline bridges it by the nearest defined one.
+    /// Each direction is treated separately. To larger cells, a new height is the average over the new cell.
+    /// Within a partly covered old cell, the height varies linearly with the slope between its neighbours.
+    /// For a whole ratio this is the plain average of the old cells; for any ratio it preserves the mean
+    /// height and planes. A wave of length Λ is reduced to sin(πp/Λ)/(πp/Λ) at the new pitch p. Waves shorter
+    /// than two new cells are therefore aliased by at most 2/π; [`Topography::s_filter`] removes the rest. To
+    /// smaller cells, heights are interpolated between the centres of the old cells, and constant beyond the
+    /// outermost ones. A height that uses an undefined sample, or lies beside one, is undefined; a spline
+    /// bridges it by the nearest defined one.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a number of cells is 0.
@@ -38,8 +39,8 @@ impl Topography {
         self.on_grid(grid_of_shape(self.grid(), shape)?, interpolation)
     }
 
-    /// Resamples to cells of size `pitch`, as many as fit into the extent from its corner. The remainder at the far edges,
-    /// less than a cell, is cut off. The method is that of [`Topography::resample_to_shape`].
+    /// Resamples to cells of size `pitch`, as many as fit into the extent from its corner. The remainder at
+    /// the far edges, less than a cell, is cut off. The method is that of [`Topography::resample_to_shape`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a pitch is not positive, or longer than the topography.
@@ -133,8 +134,8 @@ fn resampled_by_spline(field: &Field, axis: Axis, old: &Grid, new: &Grid) -> Fie
     result
 }
 
-/// Returns the sample, of `n`, at or below the centre of new cell `index`, and the fraction of the distance to the next
-/// one.
+/// Returns the sample, of `n`, at or below the centre of new cell `index`, and the fraction of the distance
+/// to the next one.
 fn between(index: usize, ratio: f64, n: usize) -> (usize, f64) {
     let centre = ((index as f64 + 0.5) * ratio - 0.5).clamp(0.0, n as f64 - 1.0);
     let below = (centre as usize).min(n.saturating_sub(2));
@@ -144,8 +145,8 @@ fn between(index: usize, ratio: f64, n: usize) -> (usize, f64) {
 /// Fraction of a cell below which it is round-off.
 const CRUMB: f64 = 1e-9;
 
-/// Returns the samples, of `n`, used for new cell `index`, and their weights, which sum to 1; `ratio` is the new pitch over
-/// the old one.
+/// Returns the samples, of `n`, used for new cell `index`, and their weights, which sum to 1; `ratio` is the
+/// new pitch over the old one.
 fn weights(index: usize, ratio: f64, n: usize) -> Vec<(usize, f64)> {
     let mut drawn: Vec<(usize, f64)> = Vec::new();
     let mut draw = |sample: usize, weight: f64| match drawn.iter_mut().find(|(i, _)| *i == sample) {
@@ -157,8 +158,8 @@ fn weights(index: usize, ratio: f64, n: usize) -> Vec<(usize, f64)> {
         for i in start as usize..(end.ceil() as usize).min(n) {
             let (from, to) = (start.max(i as f64), end.min(i as f64 + 1.0));
             let (before, after) = (i.saturating_sub(1), (i + 1).min(n - 1));
-            // Distance from the centre of the old cell to that of the shared part, over the distance of the samples used
-            // for the slope.
+            // Distance from the centre of the old cell to that of the shared part, over the distance of the
+            // samples used for the slope.
             let lever = (0.5 * (from + to) - i as f64 - 0.5) / ((after - before).max(1)) as f64;
             draw(i, to - from);
             draw(after, (to - from) * lever);

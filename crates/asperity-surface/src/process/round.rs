@@ -10,31 +10,33 @@ use asperity_base::units::Metre;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Round {
-    /// Radius, positive for a convex surface (a ball), negative for a concave one (a cup); infinite for a plane.
+    /// Radius, positive for a convex surface (a ball), negative for a concave one (a cup); infinite for a
+    /// plane.
     pub radius: Metre,
-    /// Centre of the sphere, or the point of the cylinder's axis closest to the middle of the samples; x and y relative to
-    /// the grid's corner, z like the heights.
+    /// Centre of the sphere, or the point of the cylinder's axis closest to the middle of the samples; x and
+    /// y relative to the grid's corner, z like the heights.
     pub centre: [Metre; 3],
     /// Direction of a cylinder's axis in the plane, from x towards y, −π/2 < θ ≤ π/2.
     pub axis: Option<f64>,
 }
 
 impl Topography {
-    /// Fits a sphere by least squares of the vertical distances of the defined samples. They differ from the radial
-    /// distances by the cosine of the slope. `None` if no sample is defined.
+    /// Fits a sphere by least squares of the vertical distances of the defined samples. They differ from the
+    /// radial distances by the cosine of the slope. `None` if no sample is defined.
     ///
-    /// The upper or lower side of the sphere is z = z₀ + v, v − (c/2)v² = b·r + (c/2)r², with r relative to the middle of
-    /// the samples. The curvature c = −√(1 + b²)/R passes smoothly through 0. Levenberg–Marquardt, starting from the plane;
-    /// Marquardt, J. SIAM 11, 431 (1963). If the samples do not determine the fit, it returns one of the best.
+    /// The upper or lower side of the sphere is z = z₀ + v, v − (c/2)v² = b·r + (c/2)r², with r relative to
+    /// the middle of the samples. The curvature c = −√(1 + b²)/R passes smoothly through 0.
+    /// Levenberg–Marquardt, starting from the plane; Marquardt, J. SIAM 11, 431 (1963). If the samples do not
+    /// determine the fit, it returns one of the best.
     pub fn best_sphere(&self) -> Option<Round> {
         remove_sphere(&mut self.clone())
     }
 
-    /// Fits a cylinder by least squares of the vertical distances, like [`Topography::best_sphere`]. Its axis may have any
-    /// direction in the plane, and a tilt.
+    /// Fits a cylinder by least squares of the vertical distances, like [`Topography::best_sphere`]. Its axis
+    /// may have any direction in the plane, and a tilt.
     ///
-    /// With s along the axis, t across, and the slope a of the axis: z = z₀ + a s + v, v − (c/2) v²/(1 + a²) = b t + (c/2)
-    /// t².
+    /// With s along the axis, t across, and the slope a of the axis: z = z₀ + a s + v, v − (c/2) v²/(1 + a²)
+    /// = b t + (c/2) t².
     pub fn best_cylinder(&self) -> Option<Round> {
         remove_cylinder(&mut self.clone())
     }
@@ -71,7 +73,8 @@ pub(super) fn remove_cylinder(topography: &mut Topography) -> Option<Round> {
 /// Largest number of parameters of a surface.
 const N: usize = 6;
 
-/// Height at (x, y) and its derivatives with respect to the parameters; `None` where the surface does not extend.
+/// Height at (x, y) and its derivatives with respect to the parameters; `None` where the surface does not
+/// extend.
 type Surface = fn(&[f64; N], f64, f64) -> Option<(f64, [f64; N])>;
 
 /// Parameters z, bx, by, c.
@@ -148,7 +151,8 @@ impl Cloud {
         Some(Self { grid, heights, middle, spread })
     }
 
-    /// Fits the parameters by least squares, starting from `p`, for which the surface must extend over all samples.
+    /// Fits the parameters by least squares, starting from `p`, for which the surface must extend over all
+    /// samples.
     fn fit(&self, surface: Surface, mut p: [f64; N]) -> [f64; N] {
         /// A fit converges in about ten steps.
         const STEPS: usize = 100;
@@ -182,8 +186,8 @@ impl Cloud {
         p
     }
 
-    /// Computes the sums for these parameters, in the order of the rows; `None` if the surface does not extend over all
-    /// samples.
+    /// Computes the sums for these parameters, in the order of the rows; `None` if the surface does not
+    /// extend over all samples.
     fn sums(&self, surface: Surface, p: &[f64; N]) -> Option<Sums> {
         let zero = Sums { squares: 0.0, gradient: [0.0; N], products: [[0.0; N]; N] };
         let rows = parallel::tasks(0..self.grid.shape[0], |ix| {
@@ -263,7 +267,8 @@ mod tests {
         for radius in [1e-3, -1e-3, 0.8e-3, -0.1] {
             let surface = ball(radius);
             let found = surface.best_sphere().unwrap();
-            // A sphere of 0.1 m rises by 3 µm over the samples: 1e-16 of its own height is 1e-10 of its radius.
+            // A sphere of 0.1 m rises by 3 µm over the samples: 1e-16 of its own height is 1e-10 of its
+            // radius.
             assert!((found.radius / radius - 1.0).abs() < 1e-9, "{found:?}");
             for (found, exact) in found.centre.iter().zip([4e-4, 5e-4, 3e-4]) {
                 assert!((found - exact).abs() < 1e-9 * radius.abs(), "{found} {exact}");
@@ -296,9 +301,9 @@ mod tests {
 
     #[test]
     fn noise_moves_the_radius_by_no_more_than_its_share() {
-        // With noise σ on n samples, the standard error of the curvature is σ/√n over the rms of r²/2 without its mean and
-        // plane. Here this is about 4 per cent of the curvature of a radius of one metre. Five times that is not exceeded
-        // by chance.
+        // With noise σ on n samples, the standard error of the curvature is σ/√n over the rms of r²/2 without
+        // its mean and plane. Here this is about 4 per cent of the curvature of a radius of one metre. Five
+        // times that is not exceeded by chance.
         let (radius, sigma) = (2e-2, 1e-8);
         let mut state = 1u64;
         let mut noise = || {

@@ -6,9 +6,9 @@ use asperity_base::grid::Field;
 
 /// Computes the slopes, per sample, of the cubic spline through the samples of each line along `axis`.
 ///
-/// The equation is dᵢ₋₁ + 4dᵢ + dᵢ₊₁ = 3(zᵢ₊₁ − zᵢ₋₁). The slope at an end is that of the cubic through the last four
-/// samples, or of the polynomial through all if there are fewer. The spline is therefore of fourth order up to the
-/// boundary. De Boor, A Practical Guide to Splines (1978), ch. IV.
+/// The equation is dᵢ₋₁ + 4dᵢ + dᵢ₊₁ = 3(zᵢ₊₁ − zᵢ₋₁). The slope at an end is that of the cubic through the
+/// last four samples, or of the polynomial through all if there are fewer. The spline is therefore of fourth
+/// order up to the boundary. De Boor, A Practical Guide to Splines (1978), ch. IV.
 pub(super) fn slopes(field: &Field, axis: Axis) -> Field {
     /// Coefficients of the one-sided derivative at the end, from one to four samples.
     const ENDS: [&[f64]; 4] =
@@ -51,7 +51,8 @@ fn transposed(field: &Field) -> Field {
     field.t().as_standard_layout().into_owned()
 }
 
-/// Weights of the samples below and above, and of the slopes there, at the fraction `t` of the distance between them.
+/// Weights of the samples below and above, and of the slopes there, at the fraction `t` of the distance
+/// between them.
 pub(super) fn hermite(t: f64) -> [f64; 4] {
     let u = 1.0 - t;
     [u * u * (1.0 + 2.0 * t), t * t * (1.0 + 2.0 * u), t * u * u, -t * t * u]

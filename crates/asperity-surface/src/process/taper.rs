@@ -7,10 +7,10 @@ use asperity_base::error::{Result, check_in};
 use asperity_base::units::{Dimension, Metre};
 
 impl Topography {
-    /// Tapers the topography to its mean height over `width` along each side, so that it can be repeated, or ends without a
-    /// step. The result is z̄ + w(x) w(y) (z − z̄), with w = sin²(πd/2·width) at the distance d < width from the outermost
-    /// sample and 1 beyond (Tukey's window; Harris, Proc. IEEE 66, 51 (1978), eq. 38). The mean is over the defined
-    /// samples. A direction with a single sample is not tapered.
+    /// Tapers the topography to its mean height over `width` along each side, so that it can be repeated, or
+    /// ends without a step. The result is z̄ + w(x) w(y) (z − z̄), with w = sin²(πd/2·width) at the distance
+    /// d < width from the outermost sample and 1 beyond (Tukey's window; Harris, Proc. IEEE 66, 51 (1978),
+    /// eq. 38). The mean is over the defined samples. A direction with a single sample is not tapered.
     ///
     /// # Errors
     /// [`asperity_base::Error::OutOfRange`] unless the width is above 0 and at most half of the topography.

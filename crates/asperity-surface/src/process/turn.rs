@@ -31,7 +31,8 @@ impl Topography {
 
     /// Turns the topography over about the y axis, to mount it as the upper body: mirrored in x and negated.
     ///
-    /// Heights measured with the material's side up become the height of the underside. Applied twice, it is the identity.
+    /// Heights measured with the material's side up become the height of the underside. Applied twice, it is
+    /// the identity.
     pub fn underside(self) -> Self {
         let mut mirrored = self.mirror(Axis::X);
         mirrored.heights_mut().mapv_inplace(|z| -z);
@@ -40,11 +41,11 @@ impl Topography {
 
     /// Rotates the topography in its plane by `angle`, in radians, from x towards y.
     ///
-    /// Quarter turns are exact and exchange the numbers of cells and the pitches. The remainder, at most an eighth of a
-    /// turn in either direction, keeps the pitches after the quarter turns. Its heights are those of the cubic spline
-    /// through the samples, of fourth order in the pitch. They cover the largest rectangle along x and y around the middle
-    /// that lies within the outermost samples, so that no height is extrapolated. A height with an undefined sample among
-    /// the four around it is undefined.
+    /// Quarter turns are exact and exchange the numbers of cells and the pitches. The remainder, at most an
+    /// eighth of a turn in either direction, keeps the pitches after the quarter turns. Its heights are those
+    /// of the cubic spline through the samples, of fourth order in the pitch. They cover the largest
+    /// rectangle along x and y around the middle that lies within the outermost samples, so that no height is
+    /// extrapolated. A height with an undefined sample among the four around it is undefined.
     ///
     /// # Errors
     /// [`asperity_base::Error::OutOfRange`] if the angle is not finite.
@@ -128,7 +129,8 @@ fn rotated_a_little(old: &Grid, angle: f64) -> Result<Grid> {
     Grid::new(shape, old.pitch)
 }
 
-/// Returns the sides of the largest rotated rectangle w × h within W × H: w cos + h sin ≤ W, w sin + h cos ≤ H.
+/// Returns the sides of the largest rotated rectangle w × h within W × H: w cos + h sin ≤ W, w sin + h cos ≤
+/// H.
 fn inscribed([width, height]: [f64; 2], sin: f64, cos: f64) -> [f64; 2] {
     // If one of the two is much shorter, it alone is the bound.
     let slim = 2.0 * sin * cos;
@@ -152,7 +154,8 @@ impl Spline {
         Self([z, along_x, along_y, cross])
     }
 
-    /// Returns the samples, of `n`, below and above a position, and its weights; both samples are equal at the last one.
+    /// Returns the samples, of `n`, below and above a position, and its weights; both samples are equal at
+    /// the last one.
     fn around(position: f64, n: usize) -> ([usize; 2], [f64; 4]) {
         let below = (position as usize).min(n - 1);
         ([below, (below + 1).min(n - 1)], hermite(position - below as f64))

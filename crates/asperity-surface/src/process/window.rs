@@ -5,7 +5,8 @@ use asperity_base::error::{Error, Result};
 use asperity_base::grid::{Field, Grid};
 
 impl Topography {
-    /// Returns the part of `nx` × `ny` samples that begins at sample `(x0, y0)`, for a window `[x0, y0, nx, ny]`.
+    /// Returns the part of `nx` × `ny` samples that begins at sample `(x0, y0)`, for a window
+    /// `[x0, y0, nx, ny]`.
     ///
     /// # Errors
     /// [`Error::WindowOutside`] if the window is empty or extends beyond the samples.

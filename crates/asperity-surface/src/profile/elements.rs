@@ -20,10 +20,11 @@ pub(super) struct Element {
 
 /// Finds the elements of `heights`, which are relative to the mean line.
 ///
-/// Crossing-the-line segmentation: the profile is cut where its polygon crosses the mean line. A hill or dale below the
-/// minimum size is merged with its predecessor. Both orders of hill and dale count, and the profile is processed in both
-/// directions, so that the elements overlap and no direction is preferred. A part cut off by an end or by an undefined
-/// sample is no element. ISO 21920-2:2021; Scott, Meas. Sci. Technol. 17, 559 (2006).
+/// Crossing-the-line segmentation: the profile is cut where its polygon crosses the mean line. A hill or dale
+/// below the minimum size is merged with its predecessor. Both orders of hill and dale count, and the profile
+/// is processed in both directions, so that the elements overlap and no direction is preferred. A part cut
+/// off by an end or by an undefined sample is no element. ISO 21920-2:2021; Scott, Meas. Sci. Technol. 17,
+/// 559 (2006).
 pub(super) fn elements(heights: &[f64], discrimination: &Discrimination) -> Vec<Element> {
     let reversed: Vec<f64> = heights.iter().rev().copied().collect();
     [heights, &reversed]
@@ -121,8 +122,8 @@ mod tests {
     fn elements_of_a_wave_are_as_wide_as_the_wave() {
         let heights: Vec<f64> = (0..400).map(|i| (TAU * (i as f64 + 0.3) / 37.0).sin()).collect();
         let found = elements(&heights, &ANY);
-        // 21 crossings bound 20 whole hills and dales, in 19 pairs, in both directions. A chord of the sine deviates from
-        // the curve by h²/8 · |sin| ≤ h³/16 near its node, and so does the crossing, h = 2π/37.
+        // 21 crossings bound 20 whole hills and dales, in 19 pairs, in both directions. A chord of the sine
+        // deviates from the curve by h²/8 · |sin| ≤ h³/16 near its node, and so does the crossing, h = 2π/37.
         assert_eq!(found.len(), 2 * 19);
         for element in &found {
             assert!(

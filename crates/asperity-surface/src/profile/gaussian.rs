@@ -2,11 +2,13 @@
 
 use std::f64::consts::{LN_2, PI};
 
-/// Returns the long waves of `heights`: a mean weighted by exp(−π (x/αλ)²), α = √(ln 2/π), with the cut-off λ in samples.
+/// Returns the long waves of `heights`: a mean weighted by exp(−π (x/αλ)²), α = √(ln 2/π), with the cut-off λ
+/// in samples.
 ///
-/// The weights end at one cut-off, where the omitted part is 10⁻⁷ of their sum. Near an end and near undefined samples, the
-/// weighted least-squares line replaces the weighted mean (ISO 16610-28 calls it retaining the moments). A straight line
-/// therefore passes unchanged everywhere. Undefined samples stay undefined.
+/// The weights end at one cut-off, where the omitted part is 10⁻⁷ of their sum. Near an end and near
+/// undefined samples, the weighted least-squares line replaces the weighted mean (ISO 16610-28 calls it
+/// retaining the moments). A straight line therefore passes unchanged everywhere. Undefined samples stay
+/// undefined.
 pub(super) fn smooth(heights: &[f64], cutoff: f64) -> Vec<f64> {
     let reach = (cutoff.ceil() as usize).min(heights.len());
     let weights: Vec<f64> =

@@ -25,7 +25,8 @@ impl Profile {
     /// Creates a profile with these `heights`, each finite, or NaN if undefined, `pitch` apart.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there are no heights, if one is infinite, or if the pitch is not a positive length.
+    /// [`Error::OutOfRange`] if there are no heights, if one is infinite, or if the pitch is not a positive
+    /// length.
     pub fn new(pitch: Metre, heights: Vec<Metre>) -> Result<Self> {
         check_in(Dimension::Length, "pitch", pitch, pitch > 0.0 && pitch.is_finite(), "a positive length")?;
         check("number of heights", heights.len() as f64, !heights.is_empty(), "at least 1")?;
@@ -124,7 +125,8 @@ impl Topography {
         (0..self.grid().shape[1 - axis as usize]).map(move |index| self.line(axis, index))
     }
 
-    /// Computes the parameters of the roughness profiles along `axis` with the cut-off λc, each as the mean over the lines.
+    /// Computes the parameters of the roughness profiles along `axis` with the cut-off λc, each as the mean
+    /// over the lines.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] unless the cut-off is at least two pitches.

@@ -9,9 +9,10 @@ use crate::parameters::{Core, HeightParameters, area_excess};
 family! {
     /// Profile parameters of ISO 21920-2:2021 over the defined samples, with heights relative to their mean.
     ///
-    /// The letter R is that of a roughness profile; a primary profile has Pa, Pq, …, a waviness Wa, Wq, …. Rp, Rv, Rz are
-    /// means over sections. A roughness profile has sections of the length λc from its start, and a shorter remainder is
-    /// ignored. Any other profile, and one shorter than λc, is one section. An undefined parameter is NaN.
+    /// The letter R is that of a roughness profile; a primary profile has Pa, Pq, …, a waviness Wa, Wq, ….
+    /// Rp, Rv, Rz are means over sections. A roughness profile has sections of the length λc from its start,
+    /// and a shorter remainder is ignored. Any other profile, and one shorter than λc, is one section. An
+    /// undefined parameter is NaN.
     ProfileParameters: "profile" {
         /// Arithmetic mean height, ⟨|z|⟩.
         ra: Length as "Ra",
@@ -31,8 +32,9 @@ family! {
         rt: Length as "Rt",
         /// Mean height of the profile elements.
         ///
-        /// An element is a hill with the dale beside it, between crossings of the mean line. It counts if the hill is
-        /// higher than 10 % of Rp, the dale deeper than 10 % of Rv, and each wider than 1 % of a section.
+        /// An element is a hill with the dale beside it, between crossings of the mean line. It counts if the
+        /// hill is higher than 10 % of Rp, the dale deeper than 10 % of Rv, and each wider than 1 % of a
+        /// section.
         rc: Length as "Rc",
         /// Mean spacing of the profile elements.
         rsm: Length as "Rsm",
@@ -84,8 +86,8 @@ impl ProfileParameters {
 }
 
 impl Profile {
-    /// Computes the ISO 21920 parameters of the profile as it is; for roughness parameters, use [`Profile::roughness`]
-    /// first.
+    /// Computes the ISO 21920 parameters of the profile as it is; for roughness parameters, use
+    /// [`Profile::roughness`] first.
     pub fn parameters(&self) -> ProfileParameters {
         let height = HeightParameters::of_samples(&self.heights);
         let Sections { peak, pit, samples } = self.sections();
@@ -154,7 +156,8 @@ impl Profile {
         }
     }
 
-    /// Returns the mean spacing and height of the elements, with `samples` in a section of mean `peak` and `pit`.
+    /// Returns the mean spacing and height of the elements, with `samples` in a section of mean `peak` and
+    /// `pit`.
     fn mean_element(&self, peak: f64, pit: f64, samples: f64) -> [f64; 2] {
         let mean = self.mean();
         let from_mean: Vec<f64> = self.heights.iter().map(|z| z - mean).collect();
@@ -247,7 +250,8 @@ mod tests {
             assert_abs_diff_eq!(rough.heights()[i] + wavy.heights()[i], *z, epsilon = 1e-15);
         }
         let (rough, wavy) = (rough.parameters(), wavy.parameters());
-        // The fraction 1 − 2^(−(1/10)²) = 0.7 % of the long wave stays in the roughness, more only at the ends.
+        // The fraction 1 − 2^(−(1/10)²) = 0.7 % of the long wave stays in the roughness, more only at the
+        // ends.
         let rest = 3.0 * (1.0 - 2f64.powf(-0.01));
         assert_relative_eq!(rough.rq, (0.005 + 0.5 * rest * rest).sqrt(), max_relative = 0.01);
         assert_relative_eq!(rough.rsm, 0.2, max_relative = 0.01);
@@ -260,7 +264,8 @@ mod tests {
 
     #[test]
     fn sections_share_their_peaks_and_the_rest_has_none() {
-        // Five sections of 100 samples and a remainder, with a spike in the second section and a pit in the remainder.
+        // Five sections of 100 samples and a remainder, with a spike in the second section and a pit in the
+        // remainder.
         let mut spiked = profile(560, |_| 0.0);
         spiked.heights[150] = 1.0;
         spiked.heights[530] = -2.0;

@@ -16,19 +16,20 @@ pub const WOLF_PRUNING: f64 = 0.05;
 
 /// A topography divided into hills around its peaks, or into dales around its pits.
 ///
-/// A Maxwellian hill is the area from which the steepest upward paths end at the same peak (ISO 25178-2:2012, 3.3.1;
-/// Maxwell, Phil. Mag. 40, 421 (1870)). A sample belongs to the hill of the steepest of its eight neighbours, with the true
-/// distance to diagonal ones. On a plateau the shortest path to a rise is followed; a plateau without a rise is one peak,
-/// at its first sample. Dales are the hills of −z, also with eight neighbours, so that a ridge and a course line may cross
-/// between four samples.
+/// A Maxwellian hill is the area from which the steepest upward paths end at the same peak (ISO 25178-2:2012,
+/// 3.3.1; Maxwell, Phil. Mag. 40, 421 (1870)). A sample belongs to the hill of the steepest of its eight
+/// neighbours, with the true distance to diagonal ones. On a plateau the shortest path to a rise is followed;
+/// a plateau without a rise is one peak, at its first sample. Dales are the hills of −z, also with eight
+/// neighbours, so that a ridge and a course line may cross between four samples.
 ///
-/// Low hills and shallow dales are pruned independently (ISO 16610-85; Wolf, Computers & Geosciences 17, 1359 (1991);
-/// Scott, Proc. R. Soc. Lond. A 460, 2845 (2004)). As long as a peak is less than the threshold above the highest saddle
-/// around its hill, the lowest such hill is merged with the one across that saddle. The peak is thus the highest sample of
-/// its hill.
+/// Low hills and shallow dales are pruned independently (ISO 16610-85; Wolf, Computers & Geosciences 17, 1359
+/// (1991); Scott, Proc. R. Soc. Lond. A 460, 2845 (2004)). As long as a peak is less than the threshold above
+/// the highest saddle around its hill, the lowest such hill is merged with the one across that saddle. The
+/// peak is thus the highest sample of its hill.
 ///
-/// An undefined sample is not a neighbour. Samples separated from all others by holes form an island, whose highest peak is
-/// measured from the lowest sample. If even that is below the threshold, and on a plane, there is no hill.
+/// An undefined sample is not a neighbour. Samples separated from all others by holes form an island, whose
+/// highest peak is measured from the lowest sample. If even that is below the threshold, and on a plane,
+/// there is no hill.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segmentation {
     /// For each sample the number of its hill or dale, from 1 in the order of `motifs`; 0 without one.
@@ -44,29 +45,33 @@ pub struct Motif {
     pub at: [usize; 2],
     /// Height z of the peak or pit in the topography.
     pub height: Metre,
-    /// Height z of the connecting saddle: the highest around a hill, the lowest around a dale. For the only hill of an
-    /// island it is the lowest sample, for the only dale the highest.
+    /// Height z of the connecting saddle: the highest around a hill, the lowest around a dale. For the only
+    /// hill of an island it is the lowest sample, for the only dale the highest.
     pub saddle: Metre,
-    /// Threshold above which it would be pruned, > 0: the height of the peak above the saddle towards a higher peak, or of
-    /// an island's highest peak above its lowest sample. ≥ |height − saddle|.
+    /// Threshold above which it would be pruned, > 0: the height of the peak above the saddle towards a
+    /// higher peak, or of an island's highest peak above its lowest sample. ≥ |height − saddle|.
     pub prominence: Metre,
     /// Mean curvature −½ (∂²z/∂x² + ∂²z/∂y²) at the peak or pit, 1/m: ≥ 0 at a peak, ≤ 0 at a pit.
     ///
-    /// From the second differences (z₊₁ − 2 z₀ + z₋₁)/Δx², with a relative error of −(2πΔx/λ)²/12 for a wave of length λ.
-    /// NaN beside an undefined sample and at the boundary; the curvature along a direction with one sample is 0.
+    /// From the second differences (z₊₁ − 2 z₀ + z₋₁)/Δx², with a relative error of −(2πΔx/λ)²/12 for a wave
+    /// of length λ. NaN beside an undefined sample and at the boundary; the curvature along a direction with
+    /// one sample is 0.
     pub curvature: f64,
     /// Area of its samples.
     pub area: SquareMetre,
-    /// Volume of the hill above the height of its saddle, or of the dale below it, which it holds before it overflows.
+    /// Volume of the hill above the height of its saddle, or of the dale below it, which it holds before it
+    /// overflows.
     pub volume: CubicMetre,
-    /// Whether it does not reach the boundary of the measured area at the height of 50 % material ratio. Then no sample at
-    /// the boundary is as high as that height in the hill, or as low in the dale. The boundary is the edge of the grid, or
-    /// that of undefined samples connected to the edge. Inner holes and the sides of a single row do not count.
+    /// Whether it does not reach the boundary of the measured area at the height of 50 % material ratio. Then
+    /// no sample at the boundary is as high as that height in the hill, or as low in the dale. The boundary
+    /// is the edge of the grid, or that of undefined samples connected to the edge. Inner holes and the sides
+    /// of a single row do not count.
     pub closed: bool,
 }
 
 impl Motif {
-    /// Local peak height or pit depth, Lpvh of ISO 25178-2: |height − saddle|, at least the pruning threshold.
+    /// Local peak height or pit depth, Lpvh of ISO 25178-2: |height − saddle|, at least the pruning
+    /// threshold.
     pub fn local_height(&self) -> Metre {
         (self.height - self.saddle).abs()
     }
@@ -170,8 +175,8 @@ mod tests {
         Topography::new(Grid::new(heights.dim().into(), [1.0, 1.0]).unwrap(), heights).unwrap()
     }
 
-    /// ½ (cos kx + cos ky) with `n` samples of pitch 1 per wave, n odd, and m × m whole waves. Each square of n × n samples
-    /// is a hill with a peak in its middle; the saddles between them are at height 0.
+    /// ½ (cos kx + cos ky) with `n` samples of pitch 1 per wave, n odd, and m × m whole waves. Each square of
+    /// n × n samples is a hill with a peak in its middle; the saddles between them are at height 0.
     fn egg_box(n: usize, m: usize) -> Topography {
         let cosine = |i: usize| (TAU * (i as f64 - 0.5 * (n as f64 - 1.0)) / n as f64).cos();
         topography(Field::from_shape_fn([n * m, n * m], |(ix, iy)| 0.5 * (cosine(ix) + cosine(iy))))
@@ -254,7 +259,8 @@ mod tests {
     fn a_low_noise_does_not_change_the_hills_that_pruning_leaves() {
         let mut random = ChaCha8Rng::seed_from_u64(1);
         let mut rough = egg_box(63, 3);
-        // Heights changed by at most 0.02 move a saddle relative to its peak by 0.04; the pruning is 5 % of Sz = 2.
+        // Heights changed by at most 0.02 move a saddle relative to its peak by 0.04; the pruning is 5 % of
+        // Sz = 2.
         rough.heights_mut().mapv_inplace(|z| z + 0.02 * (2.0 * random.random::<f64>() - 1.0));
         assert!(rough.hills(0.0).unwrap().motifs.len() > 50);
         assert_eq!(rough.hills(WOLF_PRUNING).unwrap().motifs.len(), 9);
@@ -417,8 +423,8 @@ mod tests {
         });
     }
 
-    /// Returns the peaks with their prominence, highest first, and the samples on an island with a peak. It uses the lowest
-    /// sample on the best path between any two samples, by the Floyd–Warshall recursion.
+    /// Returns the peaks with their prominence, highest first, and the samples on an island with a peak. It
+    /// uses the lowest sample on the best path between any two samples, by the Floyd–Warshall recursion.
     fn peaks_by_bottleneck(z: &Field, pruning: f64) -> (Vec<([usize; 2], f64)>, Vec<bool>) {
         let samples: Vec<(usize, usize)> = z.indexed_iter().map(|(at, _)| at).collect();
         let n = samples.len();

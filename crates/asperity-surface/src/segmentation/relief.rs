@@ -3,8 +3,8 @@
 use crate::Topography;
 use asperity_base::grid::Grid;
 
-/// Heights in a flat list, surrounded by undefined samples, so that each sample has eight neighbours. A sample is
-/// identified by its index, the cell.
+/// Heights in a flat list, surrounded by undefined samples, so that each sample has eight neighbours. A
+/// sample is identified by its index, the cell.
 pub(super) struct Relief {
     /// Heights, with the sign for which hills rise; NaN if undefined.
     pub(super) z: Vec<f64>,
@@ -88,8 +88,8 @@ impl Relief {
         -0.5 * (second(0, self.grid.shape[1] + 2) + second(1, 1))
     }
 
-    /// Returns the cells beside the frame, or beside undefined samples connected to it. Along a direction with one sample
-    /// there is no frame.
+    /// Returns the cells beside the frame, or beside undefined samples connected to it. Along a direction
+    /// with one sample there is no frame.
     pub(super) fn rim(&self) -> Vec<bool> {
         let shape = self.grid.shape;
         let in_frame = |cell: usize| {

@@ -25,8 +25,8 @@ pub(super) struct Watershed {
 /// Height down to which a peak is the highest of its surroundings.
 struct End {
     height: f64,
-    /// The two hills at the saddle towards a higher peak, one on each side. `None` for the highest peak of an island, whose
-    /// surroundings end at the lowest sample.
+    /// The two hills at the saddle towards a higher peak, one on each side. `None` for the highest peak of an
+    /// island, whose surroundings end at the lowest sample.
     saddle: Option<[u32; 2]>,
 }
 
@@ -51,7 +51,8 @@ pub(super) struct Hill {
 impl Watershed {
     /// Finds the hills of `relief`, and the saddles where areas above a sinking water level merge.
     ///
-    /// Linear in the number of samples, except for sorting the peaks and the samples at borders between hills.
+    /// Linear in the number of samples, except for sorting the peaks and the samples at borders between
+    /// hills.
     pub(super) fn of(relief: &Relief, stop: Stop<'_>) -> Result<Self> {
         let z = &relief.z;
         let (of, peaks) = hills(relief, stop)?;
@@ -160,7 +161,8 @@ fn hills(relief: &Relief, stop: Stop<'_>) -> Result<Hills> {
     Ok((of, peaks))
 }
 
-/// Sets the paths from the cells of `front` over their plateaus, nearest first, for cells without an upward path.
+/// Sets the paths from the cells of `front` over their plateaus, nearest first, for cells without an upward
+/// path.
 fn spread(relief: &Relief, next: &mut [usize], mut front: Vec<usize>) {
     let mut first = 0;
     while let Some(&cell) = front.get(first) {

@@ -10,12 +10,14 @@ impl Spectrum {
     ///
     /// f(θ) = 2 ∫ C(q cos θ, q sin θ) q dq/(2π)²,  0 < q ≤ [`Spectrum::nyquist`]
     ///
-    /// (the 2 for q and −q), at `directions` directions, at least one, θ = kπ/`directions` from the x axis towards the y
-    /// axis, each as the mean over its sector. The sum times π/`directions` is the variance of the waves in the circle. The
-    /// lay is at right angles to the wave vector. This is the angular spectrum of ISO 25178-2, apart from the factor.
+    /// (the 2 for q and −q), at `directions` directions, at least one, θ = kπ/`directions` from the x axis
+    /// towards the y axis, each as the mean over its sector. The sum times π/`directions` is the variance of
+    /// the waves in the circle. The lay is at right angles to the wave vector. This is the angular spectrum
+    /// of ISO 25178-2, apart from the factor.
     ///
-    /// Short wave vectors of a grid lie in few directions. Each represents its cell in the plane of wave vectors, and its
-    /// power is distributed over the directions of the cell, so that white noise is nearly isotropic.
+    /// Short wave vectors of a grid lie in few directions. Each represents its cell in the plane of wave
+    /// vectors, and its power is distributed over the directions of the cell, so that white noise is nearly
+    /// isotropic.
     pub fn angular(&self, directions: usize) -> Vec<SquareMetre> {
         let directions = directions.max(1);
         let sector = PI / directions as f64;
@@ -80,8 +82,8 @@ mod tests {
     fn white_noise_has_no_direction() {
         let spectrum = Spectrum::of(&noise([256, 256], [1.0; 2], 1), Window::None);
         let angular = spectrum.angular(36);
-        // The circle contains π/4 of the waves. A sector averages 256² π/4/72 of the pairs ±q, each with a relative scatter
-        // of 1; the waves across its edges reduce it slightly.
+        // The circle contains π/4 of the waves. A sector averages 256² π/4/72 of the pairs ±q, each with a
+        // relative scatter of 1; the waves across its edges reduce it slightly.
         let expected = 0.25;
         let error = (72.0 / (256.0 * 256.0 * PI / 4.0f64)).sqrt();
         for (k, power) in angular.iter().enumerate() {

@@ -20,15 +20,17 @@ use asperity_base::units::{RadianPerMetre, SquareMetre};
 
 /// Power spectral density of a topography at the wave vectors resolved by its grid, m⁴:
 ///
-/// C(q) = |z̃(q)|²/A,  z̃(q) = ΔA Σ w z exp(−iq·x),  ∫ C d²q/(2π)² = (1/A) Σ C = ⟨w² z²⟩ = Sq² without a window
+/// C(q) = |z̃(q)|²/A,  z̃(q) = ΔA Σ w z exp(−iq·x),  ∫ C d²q/(2π)² = (1/A) Σ C = ⟨w² z²⟩ = Sq² without a
+/// window
 ///
-/// over wave vectors of both signs: the convention of Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001
-/// (2017). The heights z are relative to their mean with the window, Σwz/Σw, so that C(0) = 0. A tilt or a form is not
-/// removed: apply [`Topography::level`] first.
+/// over wave vectors of both signs: the convention of Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop.
+/// 5, 013001 (2017). The heights z are relative to their mean with the window, Σwz/Σw, so that C(0) = 0. A
+/// tilt or a form is not removed: apply [`Topography::level`] first.
 ///
-/// Undefined samples are filled by a membrane ([`Fill::Harmonic`]). Zero weights would spread their share of the variance
-/// over all waves, and hide the steep decrease of the spectra of real surfaces. The membrane only lacks the waves shorter
-/// than the holes, where C is too small by the undefined fraction. Without a defined sample all values are NaN.
+/// Undefined samples are filled by a membrane ([`Fill::Harmonic`]). Zero weights would spread their share of
+/// the variance over all waves, and hide the steep decrease of the spectra of real surfaces. The membrane
+/// only lacks the waves shorter than the holes, where C is too small by the undefined fraction. Without a
+/// defined sample all values are NaN.
 #[derive(Debug, Clone)]
 pub struct Spectrum {
     grid: Grid,
@@ -42,8 +44,9 @@ pub struct SpectralPoint {
     pub wave_number: RadianPerMetre,
     /// Density: m⁴ for a mean of C(q), m³ for an integral along the other direction.
     pub density: f64,
-    /// Number of contributing wave vectors, with q and −q counted as two. On a random surface the relative scatter of each
-    /// density is 1. A mean over directions has a relative standard error of √(2/waves), or up to twice that with a window.
+    /// Number of contributing wave vectors, with q and −q counted as two. On a random surface the relative
+    /// scatter of each density is 1. A mean over directions has a relative standard error of √(2/waves), or
+    /// up to twice that with a window.
     pub waves: usize,
 }
 
@@ -55,8 +58,8 @@ impl Spectrum {
             Ok(filled) => filled.into_heights(),
             Err(_) => topography.heights().clone(),
         };
-        // Heights are first taken relative to one of them: equal heights then give exactly 0, without the round-off of
-        // their mean.
+        // Heights are first taken relative to one of them: equal heights then give exactly 0, without the
+        // round-off of their mean.
         let first = heights[[0, 0]];
         heights -= first;
         let weights = window.weights(grid.shape);
@@ -74,14 +77,14 @@ impl Spectrum {
         Self { grid, density: density.t().as_standard_layout().into_owned() }
     }
 
-    /// C(q), m⁴, at the wave vectors [`Spectrum::wave_vector`]. Those with a negative qy are omitted, because C(−q) = C(q).
-    /// Shape `[nx, ny/2 + 1]`.
+    /// C(q), m⁴, at the wave vectors [`Spectrum::wave_vector`]. Those with a negative qy are omitted, because
+    /// C(−q) = C(q). Shape `[nx, ny/2 + 1]`.
     pub fn density(&self) -> &Field {
         &self.density
     }
 
-    /// Returns C(q), m⁴, at the wave vector of k periods along x and l along y, also negative ones; periodic beyond the
-    /// Nyquist wave number.
+    /// Returns C(q), m⁴, at the wave vector of k periods along x and l along y, also negative ones; periodic
+    /// beyond the Nyquist wave number.
     pub fn at(&self, [k, l]: [isize; 2]) -> f64 {
         let [nx, ny] = self.grid.shape.map(|n| n as isize);
         let l = l.rem_euclid(ny);
@@ -95,8 +98,8 @@ impl Spectrum {
         [angular_frequency(k, shape[0], pitch[0]), angular_frequency(l, shape[1], pitch[1])]
     }
 
-    /// Largest wave number up to which the grid resolves waves in all directions, π/pitch with the larger pitch. A
-    /// direction with a single sample is ignored; 0 for a single sample.
+    /// Largest wave number up to which the grid resolves waves in all directions, π/pitch with the larger
+    /// pitch. A direction with a single sample is ignored; 0 for a single sample.
     pub fn nyquist(&self) -> RadianPerMetre {
         let Grid { shape, pitch } = self.grid;
         let several = (0..2).filter(|&axis| shape[axis] > 1);
@@ -221,8 +224,8 @@ mod tests {
 
     #[test]
     fn white_noise_has_the_density_of_one_cell_under_every_window() {
-        // ΔA times the variance. A window couples neighbouring waves: with Hann's, 35/18 waves count as one independent
-        // wave along each axis, with the others fewer.
+        // ΔA times the variance. A window couples neighbouring waves: with Hann's, 35/18 waves count as one
+        // independent wave along each axis, with the others fewer.
         let spectra = WINDOWS.map(|window| Spectrum::of(&noise([256, 200], [0.5, 0.25], 3), window));
         for spectrum in spectra {
             let (mut sum, mut waves) = (0.0, 0.0);
@@ -259,7 +262,8 @@ mod tests {
 
     #[test]
     fn a_hole_is_spanned_and_costs_the_waves_within_it_only() {
-        // A long wave with a hole of a tenth of its length: the membrane misses it by about q²a²/2 of the height.
+        // A long wave with a hole of a tenth of its length: the membrane misses it by about q²a²/2 of the
+        // height.
         let grid = Grid::new([128, 96], [1.0, 1.0]).unwrap();
         let whole = Form::Sinusoid { amplitude: 1.0, wavelength: [64.0, f64::INFINITY] }.on(&grid).unwrap();
         let mut holed = whole.clone();

@@ -23,11 +23,12 @@ pub enum Bins {
 const ROWS: usize = 256;
 
 impl Spectrum {
-    /// Computes the mean over all directions, C^iso(q) = (1/2π) ∫ C(q cos φ, q sin φ) dφ, m⁴, up to [`Spectrum::nyquist`].
+    /// Computes the mean over all directions, C^iso(q) = (1/2π) ∫ C(q cos φ, q sin φ) dφ, m⁴, up to
+    /// [`Spectrum::nyquist`].
     ///
-    /// It is the mean of C over the wave vectors in each ring, at the geometric mean of their wave numbers. Empty rings and
-    /// q = 0 are omitted. For a single line it is the spectrum along it. Jacobs, Junge & Pastewka (2017), as for
-    /// [`Spectrum`].
+    /// It is the mean of C over the wave vectors in each ring, at the geometric mean of their wave numbers.
+    /// Empty rings and q = 0 are omitted. For a single line it is the spectrum along it. Jacobs, Junge &
+    /// Pastewka (2017), as for [`Spectrum`].
     pub fn radial(&self, bins: Bins) -> Vec<SpectralPoint> {
         let Grid { shape, .. } = self.grid;
         let several = (0..2).filter(|&axis| shape[axis] > 1);
@@ -102,8 +103,8 @@ mod tests {
                 }
                 let expected =
                     if q > end { 0.0 } else { flat * (q / corner).max(1.0).powf(-2.0 - 2.0 * hurst) };
-                // The arithmetic mean of a power p over a ring exceeds its value at the geometric mean by p²σ²/2,
-                // σ² ≤ spread²/4 for the logarithm.
+                // The arithmetic mean of a power p over a ring exceeds its value at the geometric mean by
+                // p²σ²/2, σ² ≤ spread²/4 for the logarithm.
                 let tolerance = 3.4f64.powi(2) * spread * spread / 8.0;
                 assert_relative_eq!(
                     point.density,

@@ -3,12 +3,12 @@
 use asperity_base::choice::choice;
 use asperity_base::grid::Field;
 
-/// Weights that make a topography periodic before its transform, as functions of ξ and η, which range from −1 to 1 between
-/// opposite sides. They are scaled to ⟨w²⟩ = 1, so that white noise keeps its density.
+/// Weights that make a topography periodic before its transform, as functions of ξ and η, which range from −1
+/// to 1 between opposite sides. They are scaled to ⟨w²⟩ = 1, so that white noise keeps its density.
 ///
-/// Without a window, a nonperiodic topography has a step at the boundary. Its spectrum then decreases no faster than q⁻²
-/// along the axes, whatever the surface. Harris, Proc. IEEE 66, 51 (1978); for surfaces Jacobs, Junge & Pastewka, Surf.
-/// Topogr.: Metrol. Prop. 5, 013001 (2017).
+/// Without a window, a nonperiodic topography has a step at the boundary. Its spectrum then decreases no
+/// faster than q⁻² along the axes, whatever the surface. Harris, Proc. IEEE 66, 51 (1978); for surfaces
+/// Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Window {
     /// 1 everywhere: for periodic surfaces.
@@ -16,7 +16,8 @@ pub enum Window {
     None,
     /// Hann's window along x and along y, cos²(πξ/2) cos²(πη/2).
     Hann,
-    /// Hann's window over the radius, cos²(πr/2) for r = √(ξ² + η²) < 1, else 0: isotropic, but without the corners.
+    /// Hann's window over the radius, cos²(πr/2) for r = √(ξ² + η²) < 1, else 0: isotropic, but without the
+    /// corners.
     RadialHann,
     /// Welch's window along x and along y, (1 − ξ²)(1 − η²): narrower in wave number, but with a tail in q⁻⁴.
     Welch,
@@ -61,8 +62,8 @@ mod tests {
 
     #[test]
     fn every_window_has_a_mean_square_of_one_and_its_own_height() {
-        // 1/⟨w²⟩ of the unscaled windows: (8/3)², (15/8)², and for the disc in the square 4/(2π ∫ r cos⁴(πr/2) dr), where
-        // the integral is 3/16 − 1/π².
+        // 1/⟨w²⟩ of the unscaled windows: (8/3)², (15/8)², and for the disc in the square 4/(2π ∫ r
+        // cos⁴(πr/2) dr), where the integral is 3/16 − 1/π².
         use std::f64::consts::PI;
         let radial = 2.0 / (PI * (0.1875 - 1.0 / (PI * PI)));
         for (window, gain) in [

@@ -1,4 +1,5 @@
-//! A capability is a folder: its name stands outside only in the files listed here, each of which lets a user call it by name.
+//! A capability is a folder: its name stands outside only in the files listed here, each of which lets a user
+//! call it by name.
 
 use std::fs;
 use std::path::{Path, PathBuf};

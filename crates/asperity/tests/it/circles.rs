@@ -1,7 +1,7 @@
 //! Files have no circular dependencies.
 //!
-//! A file or folder uses a neighbour if any file in it names an item of any file in the neighbour. Items of the common
-//! parent module do not count.
+//! A file or folder uses a neighbour if any file in it names an item of any file in the neighbour. Items of
+//! the common parent module do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

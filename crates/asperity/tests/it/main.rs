@@ -1,4 +1,5 @@
-//! Tests of the whole: the order of crates and modules, the names of capabilities, the way to the disk, the messages of all of them, and their version.
+//! Tests of the whole: the order of crates and modules, the names of capabilities, the way to the disk, the
+//! messages of all of them, and their version.
 
 mod capabilities;
 mod circles;

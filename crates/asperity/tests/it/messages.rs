@@ -1,5 +1,6 @@
-//! The messages of the library suit every front end: only `study`, which reads case files, and the rules of capabilities, which are
-//! rules of case files, mention their keys. Nothing mentions the arguments of a command.
+//! The messages of the library suit every front end: only `study`, which reads case files, and the rules of
+//! capabilities, which are rules of case files, mention their keys. Nothing mentions the arguments of a
+//! command.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -112,8 +113,8 @@ fn joined(literal: &str) -> Vec<String> {
     text.replace("\\n", "\n").lines().map(|line| line.trim().to_owned()).collect()
 }
 
-/// Whether a line of prose contains two consecutive blanks. Columns of a table may: a word or two, or a number, before the
-/// next one.
+/// Whether a line of prose contains two consecutive blanks. Columns of a table may: a word or two, or a
+/// number, before the next one.
 fn has_gap(line: &str) -> bool {
     let Some(at) = line.find("  ") else { return false };
     let (before, after) = (&line[..at], line[at..].trim_start());

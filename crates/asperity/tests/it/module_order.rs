@@ -1,4 +1,5 @@
-//! The order of the modules in `lib.rs` is their order of dependence: no file uses a module declared below its own.
+//! The order of the modules in `lib.rs` is their order of dependence: no file uses a module declared below
+//! its own.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -87,8 +88,8 @@ fn files_of(source: &Path, module: &str) -> Vec<PathBuf> {
     files
 }
 
-/// Returns every name that follows `crate::` in code, with its line: a for `crate::a::x`, a and b for `crate::{a::x, b}`.
-/// Comments, including links in doc comments, do not count.
+/// Returns every name that follows `crate::` in code, with its line: a for `crate::a::x`, a and b for
+/// `crate::{a::x, b}`. Comments, including links in doc comments, do not count.
 fn uses(text: &str) -> Vec<(usize, String)> {
     let code: String = text.lines().map(|line| without_comment(line).to_owned() + "\n").collect();
     let line = |offset: usize| 1 + code[..offset].matches('\n').count();

@@ -1,4 +1,5 @@
-//! Atomic files, written completely or not at all: written to a temporary name beside the target, then renamed.
+//! Atomic files, written completely or not at all: written to a temporary name beside the target, then
+//! renamed.
 
 use std::ffi::OsStr;
 use std::fs::{File, TryLockError};
@@ -10,18 +11,18 @@ use tempfile::NamedTempFile;
 
 use crate::error::{Error, Result};
 
-/// Creates the file at `path` with `contents`, or replaces it. A process killed at any moment leaves either the old file or
-/// the complete new one, and beside it at most a temporary file, which [`sweep`] removes.
+/// Creates the file at `path` with `contents`, or replaces it. A process killed at any moment leaves either
+/// the old file or the complete new one, and beside it at most a temporary file, which [`sweep`] removes.
 ///
 /// # Errors
-/// [`Error::File`] with `path`, if its directory does not exist or cannot be written to, or if the disk is full; the file
-/// is then unchanged.
+/// [`Error::File`] with `path`, if its directory does not exist or cannot be written to, or if the disk is
+/// full; the file is then unchanged.
 pub fn replace(path: &Path, contents: &[u8]) -> Result<()> {
     write_with(path, |file| file.write_all(contents))
 }
 
-/// Creates the file at `path` with these contents, unless it exists. Returns whether it did. If several processes call it,
-/// one creates the file.
+/// Creates the file at `path` with these contents, unless it exists. Returns whether it did. If several
+/// processes call it, one creates the file.
 ///
 /// # Errors
 /// The errors of [`replace`].
@@ -39,18 +40,18 @@ pub fn create(path: &Path, contents: &[u8]) -> Result<bool> {
 
 /// Replaces the file at `path` by the output of `contents`.
 ///
-/// The data reach the disk before the name does. A process killed at any moment leaves either the old file or the complete
-/// new one, and beside it at most a temporary file, which [`sweep`] removes.
+/// The data reach the disk before the name does. A process killed at any moment leaves either the old file or
+/// the complete new one, and beside it at most a temporary file, which [`sweep`] removes.
 ///
 /// # Errors
-/// [`Error::File`] with `path`, if its directory does not exist or cannot be written to, if the disk is full, or if
-/// `contents` fails; the file is then unchanged.
+/// [`Error::File`] with `path`, if its directory does not exist or cannot be written to, if the disk is full,
+/// or if `contents` fails; the file is then unchanged.
 pub fn write_with(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     persist(path, contents).map_err(|source| Error::File { path: path.to_owned(), source })
 }
 
-/// Removes the stale temporary files of killed processes in `directory`, as far as possible; those of running processes
-/// stay.
+/// Removes the stale temporary files of killed processes in `directory`, as far as possible; those of running
+/// processes stay.
 pub fn sweep(directory: &Path) {
     let entries = std::fs::read_dir(directory).into_iter().flatten().flatten();
     for path in entries.filter(|entry| is_temporary(&entry.file_name())).map(|entry| entry.path()) {
@@ -96,8 +97,9 @@ impl Draft {
             _ => PathBuf::from("."),
         };
         let temporary = create_in(&directory).map_err(without_temporary_name)?;
-        // The lock shows `sweep` that the process is running, and ends with the file. Without locks only a simultaneous
-        // sweep is harmful. If locks are mandatory, it would block writing under the temporary name.
+        // The lock shows `sweep` that the process is running, and ends with the file. Without locks only a
+        // simultaneous sweep is harmful. If locks are mandatory, it would block writing under the temporary
+        // name.
         if cfg!(unix) {
             let _ = temporary.as_file().try_lock();
         }
@@ -116,7 +118,8 @@ impl Draft {
     pub fn publish(self) -> io::Result<()> {
         self.temporary.as_file().sync_all()?;
         self.temporary.persist(&self.path).map_err(|failed| failed.error)?;
-        // The new name survives a power cut only once its directory is on the disk, which not every system supports.
+        // The new name survives a power cut only once its directory is on the disk, which not every system
+        // supports.
         if cfg!(unix) {
             let _ = File::open(&self.directory).and_then(|directory| directory.sync_all());
         }
@@ -124,7 +127,8 @@ impl Draft {
     }
 }
 
-/// A temporary file by which other processes check that they see the same directory; it is removed with this value.
+/// A temporary file by which other processes check that they see the same directory; it is removed with this
+/// value.
 pub struct Token {
     _file: NamedTempFile,
     number: u64,

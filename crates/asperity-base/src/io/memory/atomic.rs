@@ -29,7 +29,8 @@ pub fn create(path: &Path, contents: &[u8]) -> Result<bool> {
 /// Replaces the file at `path` by the output of `contents`.
 ///
 /// # Errors
-/// [`Error::File`] with `path`, if its directory does not exist, or if `contents` fails; the file is then unchanged.
+/// [`Error::File`] with `path`, if its directory does not exist, or if `contents` fails; the file is then
+/// unchanged.
 pub fn write_with(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let mut bytes = Vec::new();
     let written = contents(&mut bytes).and_then(|()| fs::write(path, bytes));

@@ -83,7 +83,8 @@ impl Course for Increments {
     }
 }
 
-/// Largest ignored decrease of a plastic interference, in tolerances relative to std(u). Both solutions have an error.
+/// Largest ignored decrease of a plastic interference, in tolerances relative to std(u). Both solutions have
+/// an error.
 const MAX_DECREASE: f64 = 4.0;
 
 impl Increments {
@@ -95,7 +96,8 @@ impl Increments {
         }
     }
 
-    /// Keeps the contact of elasto-plastic bodies under their last load, and adds the stage that takes the load off, if it is taken off.
+    /// Keeps the contact of elasto-plastic bodies under their last load, and adds the stage that takes the
+    /// load off, if it is taken off.
     fn unloading(&mut self, state: &LoadingState) -> Option<Stage> {
         if self.loaded.is_some() || matches!(self.loading.response, Response::Elastic(_)) {
             return None;
@@ -108,7 +110,8 @@ impl Increments {
         stage
     }
 
-    /// Returns the state after an increment that starts from the state `before`, in a `share` of the time of a cycle.
+    /// Returns the state after an increment that starts from the state `before`, in a `share` of the time of
+    /// a cycle.
     fn load(
         &mut self,
         next: Progress,

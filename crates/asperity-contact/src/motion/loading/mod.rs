@@ -23,17 +23,17 @@ use crate::solver::{ContactSolver, Friction, Params};
 
 use increments::Increments;
 
-/// Loads a pair at full overlap, stage after stage, from before contact or from a state `under_way`. A resumed loading
-/// gives the same result, bit by bit.
+/// Loads a pair at full overlap, stage after stage, from before contact or from a state `under_way`. A
+/// resumed loading gives the same result, bit by bit.
 ///
-/// Within a stage, a load, an approach, a force or a displacement grows in equal steps. The first stage starts from 0, or
-/// from first touch for an approach. If a stage prescribes another quantity than the one before, that quantity starts from
-/// its present value.
+/// Within a stage, a load, an approach, a force or a displacement grows in equal steps. The first stage
+/// starts from 0, or from first touch for an approach. If a stage prescribes another quantity than the one
+/// before, that quantity starts from its present value.
 ///
-/// Plastic deformation is irreversible. As long as no plastic interference would decrease, an increment is solved as if
-/// loaded at once. As soon as one would, the surfaces stay flattened by the plastic deformation so far, and the increment
-/// is solved again on them. This is the incremental law of perfect plasticity: in each increment w grows where p is at its
-/// cap, and shrinks nowhere.
+/// Plastic deformation is irreversible. As long as no plastic interference would decrease, an increment is
+/// solved as if loaded at once. As soon as one would, the surfaces stay flattened by the plastic deformation
+/// so far, and the increment is solved again on them. This is the incremental law of perfect plasticity: in
+/// each increment w grows where p is at its cap, and shrinks nowhere.
 ///
 /// # Errors
 /// The errors of [`StagedLoading`].
@@ -55,7 +55,8 @@ pub fn load_in_stages(
     loading.run(under_way, watch, outputs)
 }
 
-/// Two bodies that are loaded at full overlap, stage after stage, see [`load_in_stages`], and that laws may change where they slip.
+/// Two bodies that are loaded at full overlap, stage after stage, see [`load_in_stages`], and that laws may
+/// change where they slip.
 pub struct StagedLoading {
     pair: Pair,
     /// Initial gap of the undeformed bodies.
@@ -109,11 +110,13 @@ impl StagedLoading {
         Ok(Self { pair, gap, response, params, boundary, stages, changes })
     }
 
-    /// Adds plastic flow below the surfaces of the given `bodies`, lower one first, with the convergence criteria of a step. Their load is taken
-    /// off at the end in so many `unloading` steps, ≥ 1, or stays. Such a loading is not resumed.
+    /// Adds plastic flow below the surfaces of the given `bodies`, lower one first, with the convergence
+    /// criteria of a step. Their load is taken off at the end in so many `unloading` steps, ≥ 1, or stays.
+    /// Such a loading is not resumed.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for an elasto-plastic body with a hardness, and for bodies that creep or attract each other.
+    /// [`Error::Unsupported`] for an elasto-plastic body with a hardness, and for bodies that creep or
+    /// attract each other.
     ///
     /// # Panics
     /// If no body is given, or if the grid of one differs from that of its surface.
@@ -142,11 +145,13 @@ impl StagedLoading {
         &self.pair
     }
 
-    /// Loads the bodies, from before contact or from a state `under_way`. A resumed loading gives the same result, bit by bit.
+    /// Loads the bodies, from before contact or from a state `under_way`. A resumed loading gives the same
+    /// result, bit by bit.
     ///
     /// # Errors
-    /// The errors of [`crate::solver::solve_frictional`], with several increments in an [`Error::AtIncrement`]; those of the outputs;
-    /// [`Error::Unsupported`] without stages and for laws without friction; [`Error::WornAway`]; [`Error::Interrupted`].
+    /// The errors of [`crate::solver::solve_frictional`], with several increments in an
+    /// [`Error::AtIncrement`]; those of the outputs; [`Error::Unsupported`] without stages and for laws
+    /// without friction; [`Error::WornAway`]; [`Error::Interrupted`].
     pub fn run(
         mut self,
         under_way: Option<LoadingState>,
@@ -201,7 +206,8 @@ impl StagedLoading {
 }
 
 impl StagedLoading {
-    /// Returns the cycle that ends with the last increment of a `state`, if there is one and its bodies change or have a memory.
+    /// Returns the cycle that ends with the last increment of a `state`, if there is one and its bodies
+    /// change or have a memory.
     fn cycle<'a>(&self, state: &'a LoadingState) -> Option<CycleReport<'a>> {
         let (end, before) = state.increments.split_last()?;
         let changed = state.changed.as_ref()?;
@@ -249,7 +255,8 @@ impl StagedLoading {
             (Response::Yielding(yielding), Some(changed)) => {
                 changed.pair.initial_gap(&changed.pair.at_rest()) + yielding.displacement(normal)
             }
-            // The surfaces with their plastic displacement, below 0 by what a hardness has flattened, as for other bodies.
+            // The surfaces with their plastic displacement, below 0 by what a hardness has flattened, as for
+            // other bodies.
             (Response::Yielding(_), None) => {
                 &normal.initial_gap - &(&plastic - &normal.plastic_interference())
             }

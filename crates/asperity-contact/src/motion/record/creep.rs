@@ -18,9 +18,10 @@ columns! {
     /// Drag of viscoelastic bodies at a position of a pass.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct DragRecord {
-        /// Force against the motion since the position before, without friction: the work on the bodies over the distance. Its mean over
-        /// the positions is the force of the dissipation; rough bodies also store work at some positions and give it back at others. It is
-        /// unknown at the position where the bodies are first pressed together.
+        /// Force against the motion since the position before, without friction: the work on the bodies over
+        /// the distance. Its mean over the positions is the force of the dissipation; rough bodies also store
+        /// work at some positions and give it back at others. It is unknown at the position where the bodies
+        /// are first pressed together.
         #[serde(deserialize_with = "number_or_none")]
         pub drag: Newton,
     }
@@ -30,7 +31,8 @@ columns! {
     /// Drag of viscoelastic bodies in a pass.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct PassDragRecord {
-        /// Mean drag over the way to the positions at which it is known, with what bodies that come apart give back.
+        /// Mean drag over the way to the positions at which it is known, with what bodies that come apart
+        /// give back.
         pub mean_drag: Newton,
         /// Mean drag over the mean load at these positions; unknown without contact.
         #[serde(deserialize_with = "number_or_none")]
@@ -39,8 +41,8 @@ columns! {
 }
 
 impl PassDragRecord {
-    /// Creates the record of a pass from the drag and the load of its positions, with the cells of the way to each, and the drag times the cells of
-    /// the way on which the bodies come apart after them.
+    /// Creates the record of a pass from the drag and the load of its positions, with the cells of the way to
+    /// each, and the drag times the cells of the way on which the bodies come apart after them.
     pub(in crate::motion) fn of(
         positions: impl Iterator<Item = (Newton, Newton, f64)>,
         leaving: Newton,

@@ -6,7 +6,8 @@ use crate::units::{Kelvin, Watt};
 use asperity_base::record::columns;
 
 columns! {
-    /// Frictional heat at a position, or of the last computed cycle: further columns of `steps.csv` and `increments.csv`.
+    /// Frictional heat at a position, or of the last computed cycle: further columns of `steps.csv` and
+    /// `increments.csv`.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct HeatRecord {
         /// Frictional power; of a cycle its mean.

@@ -1,4 +1,5 @@
-//! Columns of the laws in the rows of a motion: the list of what the laws show. Each law fills its own ([`Law`](crate::motion::Law)).
+//! Columns of the laws in the rows of a motion: the list of what the laws show. Each law fills its own
+//! ([`Law`](crate::motion::Law)).
 
 use serde::{Deserialize, Serialize};
 
@@ -6,14 +7,16 @@ use crate::units::{CubicMetre, Joule, Kelvin, Metre, Second};
 use asperity_base::record::columns;
 use asperity_base::record::number_or_none;
 
-/// Name of the column, and of the number of a state, that estimates the error of the heights by cycles that were not computed.
+/// Name of the column, and of the number of a state, that estimates the error of the heights by cycles that
+/// were not computed.
 pub(in crate::motion) const HEIGHT_ERROR: &str = "wear_error";
 
 columns! {
     /// A computed pass of bodies that laws change, with its extrapolation: further columns of `passes.csv`.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct RunningRecord {
-        /// Number of passes covered by this computed pass and its extrapolation, ≥ 1; plastic volumes refer to one pass.
+        /// Number of passes covered by this computed pass and its extrapolation, ≥ 1; plastic volumes refer
+        /// to one pass.
         #[over_motion(Sum)]
         pub represents: usize,
         /// Time from the start to the end of these passes; unknown without a speed.
@@ -29,11 +32,12 @@ columns! {
         /// Energy dissipated by friction in these passes.
         #[over_motion(Sum)]
         pub friction_work: Joule,
-        /// Largest absolute temperature of the surfaces in the computed pass. Without a flash temperature it is the temperature of the
-        /// warmer body, or unknown.
+        /// Largest absolute temperature of the surfaces in the computed pass. Without a flash temperature it
+        /// is the temperature of the warmer body, or unknown.
         #[serde(deserialize_with = "number_or_none")]
         pub max_flash_temperature: Kelvin,
-        /// Estimated error of the heights due to the extrapolation; the sum over the rows bounds the total error.
+        /// Estimated error of the heights due to the extrapolation; the sum over the rows bounds the total
+        /// error.
         #[over_motion(Sum)]
         pub error_estimate: Metre,
     }
@@ -82,7 +86,8 @@ columns! {
 }
 
 columns! {
-    /// Bodies that laws change where they slip during a loading, or whose cycles count: further columns of an increment.
+    /// Bodies that laws change where they slip during a loading, or whose cycles count: further columns of an
+    /// increment.
     #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
     pub struct FrettingRecord {
         /// Cycles done at the end of the increment, with those that were not computed.
@@ -117,7 +122,8 @@ columns! {
 }
 
 impl FrettingRecord {
-    /// Creates the record of bodies after so many cycles, with this friction work and this estimate of the error of the heights.
+    /// Creates the record of bodies after so many cycles, with this friction work and this estimate of the
+    /// error of the heights.
     pub(in crate::motion) fn new(
         cycles: usize,
         laws: LawsInCycles,

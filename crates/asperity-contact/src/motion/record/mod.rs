@@ -1,7 +1,8 @@
-//! The records of a computation: one for each static contact, increment, update, point of a sweep, position and pass.
+//! The records of a computation: one for each static contact, increment, update, point of a sweep, position
+//! and pass.
 //!
-//! A field of a record is a column of its table, or a key of `summary.json`. Only this module declares it: its type is the
-//! unit and its documentation the meaning ([`asperity_base::record`]).
+//! A field of a record is a column of its table, or a key of `summary.json`. Only this module declares it:
+//! its type is the unit and its documentation the meaning ([`asperity_base::record`]).
 
 mod creep;
 mod plastic;

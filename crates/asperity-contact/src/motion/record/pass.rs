@@ -18,7 +18,8 @@ columns! {
         /// Pass, from 1.
         #[over_motion(State)]
         pub pass: usize,
-        /// Rigid-body approach δ of the pass; its mean over the positions if the load of each position is prescribed.
+        /// Rigid-body approach δ of the pass; its mean over the positions if the load of each position is
+        /// prescribed.
         pub approach: Metre,
         /// Mean load over the positions.
         pub mean_load: Newton,
@@ -37,12 +38,14 @@ columns! {
         pub mean_contact_area: SquareMetre,
         /// Mean real contact area over the positions, in the interior of both bodies.
         pub mean_contact_area_interior: SquareMetre,
-        /// Width of the largest contact spot in the pass, in cells: the spot has the most cells at a position, its width is the smaller of its columns and rows.
+        /// Width of the largest contact spot in the pass, in cells: the spot has the most cells at a
+        /// position, its width is the smaller of its columns and rows.
         pub largest_spot_cells: usize,
         /// Largest pressure at any position.
         pub max_pressure: Pascal,
-        /// Volumes that the bodies lost to each law in this pass. Plastic flow has the columns `plastic_volume_lower`,
-        /// `plastic_volume_upper`, `plastic_volume_lower_interior`, `plastic_volume_upper_interior`.
+        /// Volumes that the bodies lost to each law in this pass. Plastic flow has the columns
+        /// `plastic_volume_lower`, `plastic_volume_upper`, `plastic_volume_lower_interior`,
+        /// `plastic_volume_upper_interior`.
         #[serde(flatten, with = "lost_volumes")]
         pub lost: Vec<LostVolume>,
         /// Changes by laws, and heat; none of bodies that only yield.
@@ -86,12 +89,14 @@ impl PassRecord {
         self.running.map_or(1, |running| running.represents)
     }
 
-    /// Volumes that the lower and the upper body lost in this pass to the law of that name; 0 without such a law.
+    /// Volumes that the lower and the upper body lost in this pass to the law of that name; 0 without such a
+    /// law.
     pub fn lost(&self, law: &str) -> [CubicMetre; 2] {
         self.of(law).map_or([0.0; 2], |lost| lost.whole)
     }
 
-    /// Volumes that the interiors of the lower and of the upper body lost in this pass to the law of that name.
+    /// Volumes that the interiors of the lower and of the upper body lost in this pass to the law of that
+    /// name.
     pub fn lost_inside(&self, law: &str) -> [CubicMetre; 2] {
         self.of(law).map_or([0.0; 2], |lost| lost.interior)
     }

@@ -6,7 +6,8 @@ use crate::units::{CubicMetre, Joule, Metre, Pascal};
 use asperity_base::record::columns;
 
 columns! {
-    /// Plastic flow of both bodies, under the last load of a static contact or after the last pass of a motion.
+    /// Plastic flow of both bodies, under the last load of a static contact or after the last pass of a
+    /// motion.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     pub struct PlasticRecord {
         /// Largest accumulated plastic strain.
@@ -19,7 +20,8 @@ columns! {
         pub plastic_work: Joule,
         /// Energy stored in the residual stress, −½ ∫ ε : Kε.
         pub stored_energy: Joule,
-        /// Volume ΔA Σ max(r, 0) by which the surfaces have been displaced inward; r is the inward displacement by the plastic strain.
+        /// Volume ΔA Σ max(r, 0) by which the surfaces have been displaced inward; r is the inward
+        /// displacement by the plastic strain.
         pub displaced_volume: CubicMetre,
         /// Largest principal residual stress, in tension.
         pub max_residual_tension: Pascal,
@@ -34,7 +36,8 @@ columns! {
         /// Growth of the largest plastic strain per pass, if the bodies ratchet.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub strain_per_pass: Option<f64>,
-        /// Displacement of the surface along x per pass, if the bodies ratchet; the larger one of the two bodies.
+        /// Displacement of the surface along x per pass, if the bodies ratchet; the larger one of the two
+        /// bodies.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub shift_per_pass: Option<Metre>,
         /// The plastic flow after unloading; none without unloading.
@@ -97,13 +100,16 @@ columns! {
         /// Plastic work in the upper body in the pass.
         #[over_motion(Sum)]
         pub plastic_work_upper: Joule,
-        /// Plastic work below the two columns at either end of the overlap, a part of the plastic work; 0 if the boundary is periodic along x.
+        /// Plastic work below the two columns at either end of the overlap, a part of the plastic work; 0 if
+        /// the boundary is periodic along x.
         #[over_motion(Sum)]
         pub plastic_work_rim: Joule,
-        /// Displacement of the surface of the lower body along +x relative to its depths in the pass, averaged over the surface.
+        /// Displacement of the surface of the lower body along +x relative to its depths in the pass,
+        /// averaged over the surface.
         #[over_motion(Sum)]
         pub surface_shift_lower: Metre,
-        /// Displacement of the surface of the upper body along +x relative to its depths in the pass, averaged over the surface.
+        /// Displacement of the surface of the upper body along +x relative to its depths in the pass,
+        /// averaged over the surface.
         #[over_motion(Sum)]
         pub surface_shift_upper: Metre,
         /// Range of the inward displacement r of the lower surface by the plastic strain after the pass.
@@ -112,8 +118,8 @@ columns! {
         /// Range of the inward displacement r of the upper surface by the plastic strain after the pass.
         #[over_motion(State)]
         pub residual_displacement_upper: Metre,
-        /// Net strain of the lower body in the pass over the accumulated strain, ∫ √(⅔ Δε:Δε) over ∫ Δp̄: 1 if each cell flows in one
-        /// direction, 0 if the flow reverses completely.
+        /// Net strain of the lower body in the pass over the accumulated strain, ∫ √(⅔ Δε:Δε) over ∫ Δp̄: 1
+        /// if each cell flows in one direction, 0 if the flow reverses completely.
         pub net_strain_lower: f64,
         /// Net strain of the upper body in the pass over the accumulated strain.
         pub net_strain_upper: f64,
@@ -125,7 +131,8 @@ columns! {
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct PlasticStepRecord {
-        /// Cells in all layers of both bodies that have yielded in the step or increment; of a point, in the increment with the most.
+        /// Cells in all layers of both bodies that have yielded in the step or increment; of a point, in the
+        /// increment with the most.
         pub yielded_cells: usize,
         /// Largest accumulated plastic strain at the end.
         pub max_plastic_strain: f64,

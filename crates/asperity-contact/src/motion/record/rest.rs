@@ -46,7 +46,8 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticRecord>,
-        /// Cycles of a loading, and changes by slip; none of bodies that neither change nor count their cycles.
+        /// Cycles of a loading, and changes by slip; none of bodies that neither change nor count their
+        /// cycles.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub fretting: Option<FrettingRecord>,
         /// Heat of friction in the last computed cycle; none without a flash temperature.
@@ -65,7 +66,8 @@ columns! {
         pub tangential_force: [Newton; 2],
         /// Magnitude of the tangential force over the load; 0 unless the load is above 0.
         pub force_ratio: f64,
-        /// Force ratio if no cell sticks, that is the friction coefficient of the whole contact; otherwise unknown.
+        /// Force ratio if no cell sticks, that is the friction coefficient of the whole contact; otherwise
+        /// unknown.
         pub friction_coefficient: Option<f64>,
         /// Rigid-body displacement of the upper body relative to the lower one, along x and y; 0 in sliding.
         pub tangential_displacement: [Metre; 2],
@@ -73,18 +75,20 @@ columns! {
         pub stick_area: SquareMetre,
         /// Largest shear traction.
         pub max_shear: Pascal,
-        /// Energy dissipated by friction. In rolling it is the dissipation while the contact moves by one cell, from the work of force,
-        /// moment and pressure. In sliding it is 0, because the slip has no limit.
+        /// Energy dissipated by friction. In rolling it is the dissipation while the contact moves by one
+        /// cell, from the work of force, moment and pressure. In sliding it is 0, because the slip has no
+        /// limit.
         pub dissipation: Joule,
-        /// In rolling, work of the shear on the slip of the cells while the contact moves by one cell, ΔA Σ q·Δs. It converges to
-        /// `dissipation` with smaller cells.
+        /// In rolling, work of the shear on the slip of the cells while the contact moves by one cell, ΔA Σ
+        /// q·Δs. It converges to `dissipation` with smaller cells.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub slip_work: Option<Joule>,
-        /// In rolling, velocity of the upper body relative to the lower one, over the rolling velocity, along x and y.
+        /// In rolling, velocity of the upper body relative to the lower one, over the rolling velocity, along
+        /// x and y.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub creepage: Option<[f64; 2]>,
-        /// In rolling, angular velocity of the upper body relative to the lower one, over the rolling velocity, about z through the middle of
-        /// the grid.
+        /// In rolling, angular velocity of the upper body relative to the lower one, over the rolling
+        /// velocity, about z through the middle of the grid.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub spin: Option<PerMetre>,
         /// In rolling, moment of the upper body on the lower one about the same axis.

@@ -11,7 +11,8 @@ columns! {
     pub struct SteadyRecord {
         /// Speed at which the contact moves over the body that is smooth along x.
         pub speed: MetrePerSecond,
-        /// Force with which the bodies resist the motion: what the viscoelastic body dissipates over a distance.
+        /// Force with which the bodies resist the motion: what the viscoelastic body dissipates over a
+        /// distance.
         pub drag: Newton,
         /// Drag over load: the coefficient of friction of the dissipation.
         pub drag_coefficient: f64,

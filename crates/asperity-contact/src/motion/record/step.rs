@@ -40,7 +40,8 @@ columns! {
         pub max_pressure: Pascal,
         /// Number of cells at the hardness, or at their caps under shear.
         pub plastic_cells: usize,
-        /// Plastic volume ΔA Σ w at this position, with w the remaining interference of the cells at the hardness.
+        /// Plastic volume ΔA Σ w at this position, with w the remaining interference of the cells at the
+        /// hardness.
         pub plastic_volume: CubicMetre,
         /// Plastic volume over the cells in the interior of both bodies.
         pub plastic_volume_interior: CubicMetre,

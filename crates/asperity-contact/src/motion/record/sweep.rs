@@ -36,9 +36,11 @@ columns! {
         pub plastic_area: SquareMetre,
         /// Plastic volume ΔA Σ w, with w the plastic interference of the cells.
         pub plastic_volume: CubicMetre,
-        /// Elastic energy ½ ΔA Σ p u; in rolling also the energy of the shear. For viscoelastic bodies it is no stored energy.
+        /// Elastic energy ½ ΔA Σ p u; in rolling also the energy of the shear. For viscoelastic bodies it is
+        /// no stored energy.
         pub elastic_energy: Joule,
-        /// Normal stiffness dW/dδ; unknown for bodies that attract each other, in steady sliding, and in full elastic contact of a periodic surface, where it is infinite.
+        /// Normal stiffness dW/dδ; unknown for bodies that attract each other, in steady sliding, and in full
+        /// elastic contact of a periodic surface, where it is infinite.
         pub stiffness: Option<NewtonPerMetre>,
         /// Creepage along x; without rolling, the columns from here to `slip_work` are 0.
         pub creepage_x: f64,
@@ -52,9 +54,11 @@ columns! {
         pub stick_area: SquareMetre,
         /// Largest shear traction.
         pub max_shear: Pascal,
-        /// Energy dissipated by friction while the contact moves by one cell, from the work of force, moment and pressure.
+        /// Energy dissipated by friction while the contact moves by one cell, from the work of force, moment
+        /// and pressure.
         pub dissipation: Joule,
-        /// Work of the shear on the slip of the cells meanwhile: the dissipation without the discretisation error of a step by one cell.
+        /// Work of the shear on the slip of the cells meanwhile: the dissipation without the discretisation
+        /// error of a step by one cell.
         pub slip_work: Joule,
         /// Iterations of the solver.
         pub iterations: usize,
@@ -68,15 +72,16 @@ columns! {
         /// Steady sliding of viscoelastic bodies; none for others.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub steady: Option<SteadyRecord>,
-        /// Plastic flow below the surfaces up to the load of the point; none for other than elasto-plastic bodies.
+        /// Plastic flow below the surfaces up to the load of the point; none for other than elasto-plastic
+        /// bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticStepRecord>,
     }
 }
 
 impl SweepRecord {
-    /// Tangential force over the load, along x and along y; `None` unless the load is above 0, as under a load that pulls at bodies that
-    /// attract each other.
+    /// Tangential force over the load, along x and along y; `None` unless the load is above 0, as under a
+    /// load that pulls at bodies that attract each other.
     pub fn traction(&self) -> Option<[f64; 2]> {
         let force = [self.tangential_force_x, self.tangential_force_y];
         (self.load > 0.0).then(|| force.map(|force| force / self.load))

@@ -10,7 +10,8 @@ use asperity_base::record::columns;
 use asperity_base::record::number_or_none;
 
 columns! {
-    /// One update of a contact that slides in place: a row of `updates.csv`. The first row is the contact before sliding.
+    /// One update of a contact that slides in place: a row of `updates.csv`. The first row is the contact
+    /// before sliding.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     pub struct UpdateRecord {
         /// Update, from 1; 0 is the contact before sliding.
@@ -34,7 +35,8 @@ columns! {
         pub max_pressure: Pascal,
         /// Number of cells at the hardness.
         pub plastic_cells: usize,
-        /// Volumes that the bodies have lost to each law so far, in the columns `NAME_volume_lower` and `NAME_volume_upper`.
+        /// Volumes that the bodies have lost to each law so far, in the columns `NAME_volume_lower` and
+        /// `NAME_volume_upper`.
         #[serde(flatten, with = "lost_volumes::whole")]
         pub lost: Vec<LostVolume>,
         /// Columns of the laws.
@@ -45,8 +47,8 @@ columns! {
         pub friction_power: Watt,
         /// Energy dissipated by friction so far.
         pub friction_work: Joule,
-        /// Largest absolute temperature of the surfaces. Without a flash temperature it is the temperature of the warmer body, or
-        /// unknown.
+        /// Largest absolute temperature of the surfaces. Without a flash temperature it is the temperature of
+        /// the warmer body, or unknown.
         #[serde(deserialize_with = "number_or_none")]
         pub max_temperature: Kelvin,
         /// Number of contacts solved to find the rates of removal under the films.
@@ -64,7 +66,8 @@ columns! {
 }
 
 impl UpdateRecord {
-    /// Volumes that the lower and the upper body have lost to the law of that name so far; 0 without such a law.
+    /// Volumes that the lower and the upper body have lost to the law of that name so far; 0 without such a
+    /// law.
     pub fn lost(&self, law: &str) -> [CubicMetre; 2] {
         self.lost.iter().find(|lost| lost.law == law).map_or([0.0; 2], |lost| lost.whole)
     }

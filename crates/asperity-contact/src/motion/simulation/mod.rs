@@ -45,7 +45,8 @@ pub struct Simulation {
     params: Params,
     /// The positions of the next pass.
     positions: Vec<Position>,
-    /// Number of positions, the first ones, that are solved. The others are the same contacts on the return stroke.
+    /// Number of positions, the first ones, that are solved. The others are the same contacts on the return
+    /// stroke.
     distinct: usize,
     /// Whether the contact at each position keeps its gap.
     gaps: Vec<bool>,
@@ -54,11 +55,13 @@ pub struct Simulation {
     interiors: [Interior; 2],
     /// Changes of the bodies by a pass.
     changes: Changes,
-    /// Compliance of single cells; `None` if no law repeats, nothing is remembered, and passes are not extrapolated.
+    /// Compliance of single cells; `None` if no law repeats, nothing is remembered, and passes are not
+    /// extrapolated.
     compliance_of_grid: Option<GridCompliance>,
     /// The flash temperature over a pass, if requested.
     heat: Option<PassHeat>,
-    /// Whether the approach of a pass is found with all positions together, before they are solved one by one.
+    /// Whether the approach of a pass is found with all positions together, before they are solved one by
+    /// one.
     together: bool,
     /// Source of the upper body of each pass after the first, if it differs from pass to pass.
     counter: Option<Counter>,
@@ -133,13 +136,14 @@ impl Simulation {
         })
     }
 
-    /// Resumes the motion after `passes` computed passes. The pair must have the heights after them and the hardness before
-    /// them. `warm` is the state that they left ([`PassReport::warm`](crate::motion::PassReport::warm)). The motion
-    /// continues as if it had not stopped, to the last bit.
+    /// Resumes the motion after `passes` computed passes. The pair must have the heights after them and the
+    /// hardness before them. `warm` is the state that they left
+    /// ([`PassReport::warm`](crate::motion::PassReport::warm)). The motion continues as if it had not
+    /// stopped, to the last bit.
     ///
     /// # Panics
-    /// If the number of positions in `warm` differs from that of the solved positions of a pass, or if it has any although
-    /// passes do not repeat.
+    /// If the number of positions in `warm` differs from that of the solved positions of a pass, or if it has
+    /// any although passes do not repeat.
     pub fn resumed(self, passes: usize, warm: WarmStart) -> Self {
         let begins_alone = self.volumes.is_some() || !self.pair.interface().is_hard();
         let kept = if self.repeats() && !begins_alone { self.distinct } else { 0 };
@@ -149,9 +153,9 @@ impl Simulation {
         resumed
     }
 
-    /// Sets a new upper body for each pass after the first. `counter` returns it for the number of the pass, on the grid of
-    /// the first body, and prepared in the same way, with the states that laws store with it. The upper body of
-    /// [`Simulation::pair`] is that of the last pass.
+    /// Sets a new upper body for each pass after the first. `counter` returns it for the number of the pass,
+    /// on the grid of the first body, and prepared in the same way, with the states that laws store with it.
+    /// The upper body of [`Simulation::pair`] is that of the last pass.
     ///
     /// Passes then do not repeat. Changes of an upper body are lost after its pass.
     ///
@@ -190,8 +194,8 @@ impl Simulation {
         Ok(Cow::Owned(pair))
     }
 
-    /// Restricts records to the interior of the bodies: cells farther than the fraction `rim` of the body length from free
-    /// ends, 0 ≤ rim < ½. Without it, the interior is the whole body.
+    /// Restricts records to the interior of the bodies: cells farther than the fraction `rim` of the body
+    /// length from free ends, 0 ≤ rim < ½. Without it, the interior is the whole body.
     ///
     /// # Errors
     /// [`Error::OutOfRange`].
@@ -200,13 +204,15 @@ impl Simulation {
         Ok(Self { interiors: interiors(&self.pair, self.boundary, &self.motion, rim), ..self })
     }
 
-    /// Sets what each pass does to the bodies, besides plastic deformation, which acts first. The contacts of a pass are solved on the
-    /// bodies before the pass or, under [`crate::motion::PlasticUpdate::Step`], before the position.
+    /// Sets what each pass does to the bodies, besides plastic deformation, which acts first. The contacts of
+    /// a pass are solved on the bodies before the pass or, under [`crate::motion::PlasticUpdate::Step`],
+    /// before the position.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`]; [`Error::Unsupported`] for an extrapolation if passes do not repeat, or if they change the bodies position by
-    /// position, and for heat without friction, a speed or temperatures of the bodies, or in a shift under a boundary that is free along x; also
-    /// the errors of [`FlashTemperature::new`].
+    /// [`Error::OutOfRange`]; [`Error::Unsupported`] for an extrapolation if passes do not repeat, or if they
+    /// change the bodies position by position, and for heat without friction, a speed or temperatures of the
+    /// bodies, or in a shift under a boundary that is free along x; also the errors of
+    /// [`FlashTemperature::new`].
     pub fn with_changes(mut self, mut changes: Changes) -> Result<Self> {
         changes.prepare(&mut self.pair)?;
         let repeats = changes.laws.iter().any(|law| law.repeats());
@@ -252,7 +258,8 @@ impl Simulation {
         Err(Error::Unsupported(refused))
     }
 
-    /// Keeps the gap of the contact at each position whose index is `wanted` ([`Contact::gap`]), for outputs that need it.
+    /// Keeps the gap of the contact at each position whose index is `wanted` ([`Contact::gap`]), for outputs
+    /// that need it.
     #[must_use]
     pub fn keeping_gaps(mut self, wanted: impl Fn(usize) -> bool) -> Self {
         let last = self.gaps.len() - 1;
@@ -267,14 +274,16 @@ impl Simulation {
         !self.motion.is_frozen(self.pair.yields()) || self.volumes.is_some()
     }
 
-    /// Adds plastic flow below the surfaces of the given `bodies`, lower one first. Plastic strain moves with the material
-    /// from position to position, and each pass ends with unloading. [`Simulation::pair`] has their surfaces with the plastic
-    /// displacement. Laws change such bodies after each pass: plastic strain moves up with the material where some above it has gone, and a
-    /// hardness of the other body flattens it after the pass.
+    /// Adds plastic flow below the surfaces of the given `bodies`, lower one first. Plastic strain moves with
+    /// the material from position to position, and each pass ends with unloading. [`Simulation::pair`] has
+    /// their surfaces with the plastic displacement. Laws change such bodies after each pass: plastic strain
+    /// moves up with the material where some above it has gone, and a hardness of the other body flattens it
+    /// after the pass.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for an elasto-plastic body with a hardness, extrapolation over passes, an elasto-plastic upper body
-    /// that differs from pass to pass, and a shift under a boundary that is free along x.
+    /// [`Error::Unsupported`] for an elasto-plastic body with a hardness, extrapolation over passes, an
+    /// elasto-plastic upper body that differs from pass to pass, and a shift under a boundary that is free
+    /// along x.
     ///
     /// # Panics
     /// If no body is given, or if the grid of one differs from that of its surface.
@@ -299,8 +308,8 @@ impl Simulation {
         Ok(Self { distinct: self.positions.len(), together: false, volumes: Some(volumes), ..self })
     }
 
-    /// Restores the plastic state of each elasto-plastic body (lower first) after the finished passes. The surfaces of the
-    /// pair already have its displacement.
+    /// Restores the plastic state of each elasto-plastic body (lower first) after the finished passes. The
+    /// surfaces of the pair already have its displacement.
     ///
     /// # Panics
     /// If no body is elasto-plastic.
@@ -360,8 +369,9 @@ impl Simulation {
     /// [finished](Simulation::finish).
     ///
     /// # Errors
-    /// The errors of [`crate::solver::solve_normal`] in an [`Error::AtPosition`], or in an [`Error::AtPass`] if all positions are
-    /// solved together; [`Error::LoadNotReached`], [`Error::WornAway`] in an [`Error::AtPass`], [`Error::Interrupted`].
+    /// The errors of [`crate::solver::solve_normal`] in an [`Error::AtPosition`], or in an [`Error::AtPass`]
+    /// if all positions are solved together; [`Error::LoadNotReached`], [`Error::WornAway`] in an
+    /// [`Error::AtPass`], [`Error::Interrupted`].
     pub fn solve(&self, watch: &dyn Watch) -> Result<SolvedPass> {
         let pass = self.passes_done + 1;
         self.solve_next(watch).map_err(|error| error.if_of_step(|source| Error::AtPass { pass, source }))
@@ -415,7 +425,8 @@ impl Simulation {
         })
     }
 
-    /// Returns how much the loads of a pass depend on the position before; 0 if they do not, or if they follow it.
+    /// Returns how much the loads of a pass depend on the position before; 0 if they do not, or if they
+    /// follow it.
     fn history_difference(&self, outcome: &Pass, watch: &dyn Watch) -> Result<f64> {
         let interface = self.pair.interface();
         if interface.is_hard() || interface.follows_path() || outcome.taken.is_some() {
@@ -459,7 +470,8 @@ impl Simulation {
         let SolvedPass { outcome, hardness, steps, guess, extrapolation, represented, .. } = pass;
         // Without repetition the next pass begins from zero.
         let (guess, again) = match self.repeats() {
-            // Each pass of elasto-plastic bodies, and of bodies that are no hard walls to each other, begins with separated bodies.
+            // Each pass of elasto-plastic bodies, and of bodies that are no hard walls to each other, begins
+            // with separated bodies.
             true if self.volumes.is_some() || !self.pair.interface().is_hard() => (guess, &[][..]),
             true => (guess, &outcome.contacts[..self.distinct]),
             false => (None, &[][..]),

@@ -1,4 +1,5 @@
-//! Changes of the bodies after a pass: by the laws, over the passes of its extrapolation, and by what they remember.
+//! Changes of the bodies after a pass: by the laws, over the passes of its extrapolation, and by what they
+//! remember.
 
 use std::ops::Range;
 
@@ -26,15 +27,16 @@ const FAST_REMOVAL: &str = "a single pass removes so much from bodies that creep
 /// Removal in a pass by the laws that repeat.
 pub(super) struct PassRemoval {
     compliance_of_grid: GridCompliance,
-    /// Number of passes of such removal at which a checkerboard mode of the pressures would not decay with explicit steps.
+    /// Number of passes of such removal at which a checkerboard mode of the pressures would not decay with
+    /// explicit steps.
     stable: f64,
     /// The depths that an explicit step would have removed, if the pass was solved implicitly.
     explicit: Option<Vec<[Field; 2]>>,
 }
 
 impl Simulation {
-    /// Solves a pass again, with its removal, if that is too much for an explicit step. The new contacts replace those of the
-    /// `outcome`. Returns `None` if no law repeats.
+    /// Solves a pass again, with its removal, if that is too much for an explicit step. The new contacts
+    /// replace those of the `outcome`. Returns `None` if no law repeats.
     pub(super) fn solve_with_removal(
         &self,
         outcome: &mut Pass,
@@ -153,14 +155,16 @@ impl Simulation {
         self.changes.look(&cycle, &mut outcome.pair)
     }
 
-    /// Moves the plastic strain below the surfaces up where material above it has gone, by these depths one after the other.
+    /// Moves the plastic strain below the surfaces up where material above it has gone, by these depths one
+    /// after the other.
     pub(super) fn uncover(&self, pass: &mut Pass, gone: &[[Field; 2]]) {
         if let (Some(volumes), Some(plastic)) = (&self.volumes, &mut pass.plastic_pass) {
             gone.iter().for_each(|depth| volumes.uncover(&mut plastic.volumes, &mut pass.pair, depth));
         }
     }
 
-    /// Adds the heat of friction at each position to the `steps`, and to the bodies the temperature for passes without their own computation.
+    /// Adds the heat of friction at each position to the `steps`, and to the bodies the temperature for
+    /// passes without their own computation.
     fn add_heat(&self, pass: &mut Pass, steps: &mut [StepRecord], position_data: &PositionData) {
         let Some(heat) = &self.heat else { return };
         let PositionData { distance, time, bulk, .. } = *position_data;
@@ -208,7 +212,8 @@ impl Simulation {
         }
     }
 
-    /// Chooses the number of passes of the extrapolation from the sums of the `laws` and from the plastic volume.
+    /// Chooses the number of passes of the extrapolation from the sums of the `laws` and from the plastic
+    /// volume.
     fn extrapolate(
         &self,
         pass: &Pass,

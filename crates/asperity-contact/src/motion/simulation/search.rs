@@ -16,8 +16,8 @@ use crate::solver::{Control, Device};
 use crate::units::{Metre, Newton};
 
 impl Simulation {
-    /// Solves one pass on the present geometry. Returns it with the initial guess of the next search and the number of
-    /// approaches tried.
+    /// Solves one pass on the present geometry. Returns it with the initial guess of the next search and the
+    /// number of approaches tried.
     pub(super) fn solve_pass(&self, pair: &Pair, watch: &dyn Watch) -> Result<(Pass, Option<Guess>, usize)> {
         let positions = &self.positions[..self.distinct];
         let mut earlier: Vec<Vec<Contact>> = self.warm.contacts(pair, positions).into_iter().collect();
@@ -42,8 +42,9 @@ impl Simulation {
                 return Ok((pass, None, 1));
             }
         };
-        // Plastic flow takes most of the time of a trial, so rough contacts would save nothing.
-        // Rough contacts that depend on where the bodies come from may be in another state, and those of viscoelastic bodies would be remembered.
+        // Plastic flow takes most of the time of a trial, so rough contacts would save nothing. Rough
+        // contacts that depend on where the bodies come from may be in another state, and those of
+        // viscoelastic bodies would be remembered.
         let exact = self.volumes.is_some() || !pair.interface().is_hard() || pair.creep().is_some();
         let roughest = if exact { self.params.tolerance } else { MAX_RESIDUAL };
         let mut residual = roughest;
@@ -116,14 +117,15 @@ impl Simulation {
         }
     }
 
-    /// Whether the pressure of a contact determines no approach, because all cells touch elastically and their mean
-    /// displacement is free.
+    /// Whether the pressure of a contact determines no approach, because all cells touch elastically and
+    /// their mean displacement is free.
     fn leaves_mean_free(&self, contact: &Contact) -> bool {
         let cells = self.pair.grid(contact.position.columns).cells();
         self.boundary.leaves_mean_free() && contact.pressure.len() == cells && contact.plastic.is_empty()
     }
 
-    /// Makes a guess from the position with the most columns, at two loads near its share of the pass-mean load.
+    /// Makes a guess from the position with the most columns, at two loads near its share of the pass-mean
+    /// load.
     fn first_guess(&self, pair: &Pair, load: Newton, watch: &dyn Watch) -> Result<Guess> {
         let fullest = self.positions.iter().max_by_key(|p| p.columns).expect("a pass has positions");
         let share = fullest.columns as f64 / mean_columns(&self.positions);
@@ -167,9 +169,10 @@ impl Simulation {
         self.positions[..self.distinct].iter().map(lowest).fold(f64::INFINITY, f64::min)
     }
 
-    /// Approach beyond which a pass of the present bodies carries no more load. It is the approach at which every cell
-    /// would be at the hardness at every position if none had yielded before. For periodic elastic bodies it is the mean
-    /// gap, at which all positions are in full contact. If some cells yield and others never do, there is no limit.
+    /// Approach beyond which a pass of the present bodies carries no more load. It is the approach at which
+    /// every cell would be at the hardness at every position if none had yielded before. For periodic elastic
+    /// bodies it is the mean gap, at which all positions are in full contact. If some cells yield and others
+    /// never do, there is no limit.
     fn limit(&self, pair: &Pair) -> Limit {
         let cap = |hardness| self.motion.friction.map_or(hardness, |friction| friction.sliding_cap(hardness));
         let hardness = cap(pair.max_hardness());
@@ -180,7 +183,8 @@ impl Simulation {
         if hardness.is_finite() {
             let highest = largest(|gap| gap.iter().copied().fold(f64::NEG_INFINITY, f64::max));
             let columns = self.positions.iter().map(|p| p.columns).max().unwrap_or(1);
-            // Displacement under the hardness on the whole overlap. The shear in sliding adds less than μ times as much.
+            // Displacement under the hardness on the whole overlap. The shear in sliding adds less than μ
+            // times as much.
             let sinks = self.operators.most_under_uniform([columns, pair.lower.width()]);
             let coefficient = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
             let approach = highest + (1.0 + coefficient) * hardness * sinks;

@@ -31,7 +31,8 @@ pub struct SolvedPass {
     pub(super) removed: Option<[Field; 2]>,
     /// Finished passes of the motion, this one and its extrapolation included.
     pub(super) represented: usize,
-    /// Largest change of the load of a position if the bodies come from the position before, relative to the mean load.
+    /// Largest change of the load of a position if the bodies come from the position before, relative to the
+    /// mean load.
     pub(super) history_difference: f64,
     /// Sliding distance of the pass.
     pub(super) distance: Metre,
@@ -82,11 +83,13 @@ impl SolvedPass {
         }
     }
 
-    /// Removes the `depth` of a single pass from each cell of the lower and of the upper body, m, below 0 if a cell grows, for each pass that
-    /// this one represents. The volume is attributed to the law of this name, in snake case.
+    /// Removes the `depth` of a single pass from each cell of the lower and of the upper body, m, below 0 if
+    /// a cell grows, for each pass that this one represents. The volume is attributed to the law of this
+    /// name, in snake case.
     ///
-    /// The number of passes is chosen before the depth is known. With [`Acceleration`](crate::motion::Acceleration) the depth of a pass bounds
-    /// the extrapolation of the next one.
+    /// The number of passes is chosen before the depth is known. With
+    /// [`Acceleration`](crate::motion::Acceleration) the depth of a pass bounds the extrapolation of the next
+    /// one.
     ///
     /// # Panics
     /// If the shape of a depth differs from that of its body.

@@ -7,8 +7,8 @@ use crate::operator::{Boundary, PeriodicFft};
 use crate::plasticity::{Hardening, J2, Layers, Volume};
 use crate::solver::{Friction, Frictionless, HardWall, StickSlip, solve_normal};
 
-/// A rigid sphere on a body with E = 1, ν = 0.3 that yields at 0.003 without hardening, period 1: the case of an
-/// independent program.
+/// A rigid sphere on a body with E = 1, ν = 0.3 that yields at 0.003 without hardening, period 1: the case of
+/// an independent program.
 const RADIUS: f64 = 14.0;
 const YIELD: f64 = 0.003;
 
@@ -70,7 +70,8 @@ fn range(field: &Field) -> f64 {
 
 #[test]
 fn a_sphere_on_a_body_that_yields_is_that_of_an_independent_program() {
-    // Load over that of first yield: largest pressure over σY, cells in contact, p̄, range of r; operator applications.
+    // Load over that of first yield: largest pressure over σY, cells in contact, p̄, range of r; operator
+    // applications.
     let found = [
         (0.9, 1.57117, 29, 0.0, 0.0, 0),
         (1.2, 1.69291, 37, 2.77958e-4, 1.69970e-6, 4),
@@ -247,8 +248,8 @@ impl Ball {
         PlasticBody::new(volume, Arc::new(perfect()))
     }
 
-    /// Presses the ball in at `from` and rolls it to `to`; returns the operator applications of each position after the
-    /// first.
+    /// Presses the ball in at `from` and rolls it to `to`; returns the operator applications of each position
+    /// after the first.
     fn pass(&self, contact: &mut PlasticContact, from: usize, to: usize) -> Vec<usize> {
         contact.move_to(self.facing(from as f64), [[0; 2]; 2]);
         for share in [0.5, 0.7, 0.85, 1.0] {
@@ -286,7 +287,8 @@ fn a_ball_that_rolls_again_deepens_its_groove_as_an_independent_program_has_it()
 
 #[test]
 fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
-    // A bump on one of two elasto-plastic bodies moves over the other by one cell at a time, and the other way round.
+    // A bump on one of two elasto-plastic bodies moves over the other by one cell at a time, and the other
+    // way round.
     let n = 24;
     let bump = |x: f64| {
         Field::from_shape_fn([n, n], |(i, j)| {

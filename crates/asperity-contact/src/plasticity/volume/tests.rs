@@ -56,8 +56,8 @@ fn residual_stress_is_symmetric_takes_work_and_is_bounded() {
             let scale = body.inner_product(&a, &a);
             assert!((one - other).abs() < 1e-13 * scale, "{shape:?}, ν = {poisson}: {one} is {other}");
             assert!(body.inner_product(&ka, &a) < 0.0);
-            // The largest eigenvalue of −K on deviators is at most 2μ, found by power iteration on −K and on 2μ + K, whose
-            // smallest is 0.
+            // The largest eigenvalue of −K on deviators is at most 2μ, found by power iteration on −K and on
+            // 2μ + K, whose smallest is 0.
             let bound = YOUNG / (1.0 + poisson);
             let mut vectors = [a.clone(), b.clone()];
             for (n, vector) in vectors.iter_mut().enumerate() {

@@ -27,8 +27,8 @@ pub(super) fn unresolved(
     })
 }
 
-/// Returns the warning about a free side of the grid that cuts off the attraction of bodies that are `curved`, from their `pressure`,
-/// which is negative under tension.
+/// Returns the warning about a free side of the grid that cuts off the attraction of bodies that are
+/// `curved`, from their `pressure`, which is negative under tension.
 pub(in crate::with) fn cut_off(
     pressure: &Field,
     boundary: Boundary,

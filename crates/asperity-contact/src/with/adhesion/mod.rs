@@ -33,7 +33,8 @@ impl Attraction {
     /// Its numbers in the order of the page: the columns, and their names there.
     pub const LABELS: &'static [(&'static str, &'static str)] = &views::LABELS;
 
-    /// Returns its numbers for bodies with this composite modulus and this initial `gap`, and the reasons not to trust them.
+    /// Returns its numbers for bodies with this composite modulus and this initial `gap`, and the reasons not
+    /// to trust them.
     ///
     /// # Errors
     /// The errors of [`Self::on`].

@@ -24,7 +24,8 @@ columns! {
         pub process_zone: Metre,
         /// Length of the process zone over the pitch, the larger one; pull-off is accurate to 1 % from 1.5.
         pub process_zone_cells: f64,
-        /// Tabor's parameter (w²/E*²ϱ³κ)^⅓, with κ the rms mean curvature of the gap; unknown for flat surfaces.
+        /// Tabor's parameter (w²/E*²ϱ³κ)^⅓, with κ the rms mean curvature of the gap; unknown for flat
+        /// surfaces.
         pub tabor: Option<f64>,
         /// Parameter of Pastewka and Robbins; rough surfaces stick below 1. Unknown for flat surfaces.
         pub pastewka_robbins: Option<f64>,
@@ -38,7 +39,8 @@ columns! {
 }
 
 impl AdhesionSummary {
-    /// Creates the numbers of bodies of this composite modulus with this initial `gap`, before they are pressed.
+    /// Creates the numbers of bodies of this composite modulus with this initial `gap`, before they are
+    /// pressed.
     pub fn new(
         adhesion: &Adhesion,
         gap: &Field,
@@ -71,8 +73,8 @@ impl AdhesionSummary {
         [known(self.pull_off), self.max_tension, known(self.work_of_separation)]
     }
 
-    /// Adds what a retreat shows: the increments over which the approach falls. It goes beyond the pull-off where the load rises again,
-    /// or the surfaces do not touch any more.
+    /// Adds what a retreat shows: the increments over which the approach falls. It goes beyond the pull-off
+    /// where the load rises again, or the surfaces do not touch any more.
     pub fn after(self, increments: &[IncrementRecord]) -> Self {
         let retreats = increments.windows(2).filter(|pair| pair[1].approach < pair[0].approach);
         let (mut least, mut work, mut is_beyond): (Newton, Joule, _) = (f64::INFINITY, 0.0, false);
@@ -87,7 +89,8 @@ impl AdhesionSummary {
     }
 }
 
-/// Returns the rms slope and the rms Laplacian of a gap, by differences of neighbouring cells. They wrap round periodic axes.
+/// Returns the rms slope and the rms Laplacian of a gap, by differences of neighbouring cells. They wrap
+/// round periodic axes.
 fn moments(gap: &Field, grid: &Grid, boundary: Boundary) -> [f64; 2] {
     let [nx, ny] = grid.shape;
     let mut slopes = [0.0; 2];

@@ -29,11 +29,12 @@ pub struct Attraction {
         beside = [Beside::most(Scale::FreeSide, 0.2, "the attraction ends at the rim of the grid")]
     )]
     pub range: AdhesionRange,
-    /// Tension as a function of the gap: `"exponential"`, or constant up to the range, for comparison with closed forms.
+    /// Tension as a function of the gap: `"exponential"`, or constant up to the range, for comparison with
+    /// closed forms.
     #[key(choice, default = Potential::Exponential, example = "\"dugdale\"")]
     pub potential: Potential,
-    /// In a motion: `"none"`, the bodies come from afar at each position; `"path"`, in a shift, from the position before, so that jumps
-    /// lose energy.
+    /// In a motion: `"none"`, the bodies come from afar at each position; `"path"`, in a shift, from the
+    /// position before, so that jumps lose energy.
     #[key(choice, default = History::None, example = "\"path\"")]
     #[serde(skip_serializing_if = "is_none")]
     pub history: History,

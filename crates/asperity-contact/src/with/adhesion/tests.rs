@@ -12,7 +12,8 @@ use crate::surface::Topography;
 
 const SHAPE: [usize; 2] = [24, 8];
 
-/// An elastic body with a bump, and a rigid one with the same bump below it, which passes by. Lengths are in cells, E* = 1.
+/// An elastic body with a bump, and a rigid one with the same bump below it, which passes by. Lengths are in
+/// cells, E* = 1.
 fn two_asperities(work: f64) -> (Pair, Adhesion) {
     let grid = Grid::new(SHAPE, [1.0, 1.0]).unwrap();
     let bump = |centre: f64| {
@@ -105,7 +106,8 @@ fn asperities_that_stick_drag_as_a_dense_program_has_them() {
     assert!(alone.energy_lost == 0.0 && alone.history_difference > 0.01, "{alone:?}");
 }
 
-/// With plastic deformation at every position, too, positions follow each other. Here no cell is hard pressed enough to yield.
+/// With plastic deformation at every position, too, positions follow each other. Here no cell is hard pressed
+/// enough to yield.
 #[test]
 fn the_path_is_followed_when_plastic_deformation_is_applied_at_every_position() {
     let (pair, adhesion) = two_asperities(0.08);

@@ -121,7 +121,8 @@ pub(in crate::with) fn jumps(increments: &[IncrementRecord]) -> Vec<Line> {
     increments.windows(2).filter_map(jump).collect()
 }
 
-/// Returns what a contact at rest of bodies that attract each other shows: their pull-off if they retreat, else their attraction.
+/// Returns what a contact at rest of bodies that attract each other shows: their pull-off if they retreat,
+/// else their attraction.
 pub(in crate::with) fn answers(numbers: Option<&AdhesionSummary>, record: &AdhesionRecord) -> Vec<Answer> {
     let retreat = numbers.and_then(|numbers| numbers.pull_off.zip(numbers.work_of_separation));
     let Some((least, work)) = retreat else {

@@ -8,8 +8,8 @@ use crate::units::{Metre, Newton, Pascal};
 /// G = K κ_s/E*,   K = dW/dδ        (W_i − W_{i−1})/(δ_i − δ_{i−1}) ≤ K_i ≤ (W_{i+1} − W_i)/(δ_{i+1} − δ_i)
 /// ```
 ///
-/// in elastic contact of half-spaces without film and gas. W(δ) is convex, as each more load brings more cells into contact, so
-/// that each secant is a bound. Bodies that yield or are coated are not bound by it.
+/// in elastic contact of half-spaces without film and gas. W(δ) is convex, as each more load brings more
+/// cells into contact, so that each secant is a bound. Bodies that yield or are coated are not bound by it.
 ///
 /// Barber, Proc. R. Soc. Lond. A 459, 53 (2003).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,8 +21,8 @@ pub struct Bracket {
 }
 
 impl Bracket {
-    /// Returns the bracket of each point of a sweep, given in any order by its load and approach, for the `composite`
-    /// conductivity κ_s, W/(m K) or S/m, and `modulus` E*.
+    /// Returns the bracket of each point of a sweep, given in any order by its load and approach, for the
+    /// `composite` conductivity κ_s, W/(m K) or S/m, and `modulus` E*.
     pub fn of_sweep(points: &[(Newton, Metre)], composite: f64, modulus: Pascal) -> Vec<Self> {
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_by(|one, other| points[*one].1.total_cmp(&points[*other].1));

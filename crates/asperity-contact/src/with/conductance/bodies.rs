@@ -9,7 +9,8 @@ use crate::with::conductance::Kind;
 /// A body that conducts: a half-space, with or without a coating.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conductor {
-    /// Conductivity κ > 0 of the half-space, W/(m K) or S/m; infinite for a body without a resistance of its own.
+    /// Conductivity κ > 0 of the half-space, W/(m K) or S/m; infinite for a body without a resistance of its
+    /// own.
     pub conductivity: f64,
     /// The coating, if any.
     pub coating: Option<ConductingCoating>,
@@ -80,8 +81,9 @@ pub(super) fn composite(bodies: &[BodyConstants; 2], kind: Kind) -> Option<Resul
     Some(composite_conductivity(lower?, upper?))
 }
 
-/// Composite conductivity κ_s = 2κ₁κ₂/(κ₁ + κ₂) of two half-spaces, W/(m K) or S/m: it stands in place of the composite
-/// modulus E* in an operator that makes a drop of a flux. One of them may be infinite, which makes it twice the other.
+/// Composite conductivity κ_s = 2κ₁κ₂/(κ₁ + κ₂) of two half-spaces, W/(m K) or S/m: it stands in place of the
+/// composite modulus E* in an operator that makes a drop of a flux. One of them may be infinite, which makes
+/// it twice the other.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] unless both are above 0 and one is finite.
@@ -101,8 +103,9 @@ pub fn composite_conductivity(lower: f64, upper: f64) -> Result<f64> {
     })
 }
 
-/// Returns the response of a pair of bodies to a flux: the drop between far fields per unit flux, K m²/W or V m²/A, for the
-/// [operators](crate::operator::Operators) of any boundary; with a coating not for one that is periodic along one axis alone.
+/// Returns the response of a pair of bodies to a flux: the drop between far fields per unit flux, K m²/W or V
+/// m²/A, for the [operators](crate::operator::Operators) of any boundary; with a coating not for one that is
+/// periodic along one axis alone.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for conductivities without meaning, and if neither body has a resistance.
@@ -198,7 +201,8 @@ mod tests {
             assert_relative_eq!(harmonic(2.0, 0.4, 2.0, q), 1.0 / (2.0 * q), max_relative = 1e-14);
             assert_relative_eq!(harmonic(5.0, 1e9, 2.0, q), 1.0 / (2.0 * q), max_relative = 1e-14);
         }
-        // Thin: the layer adds its resistance t/κ₁ less that of the base which it displaces, t κ₁/κ₂² along it.
+        // Thin: the layer adds its resistance t/κ₁ less that of the base which it displaces, t κ₁/κ₂² along
+        // it.
         let (base, layer, t) = (5.0, 2.0, 1e-6);
         let added = harmonic(base, t, layer, 1.0) - 1.0 / base;
         assert_relative_eq!(added, t * (1.0 / layer - layer / (base * base)), max_relative = 1e-4);

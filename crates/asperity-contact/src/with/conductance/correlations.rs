@@ -3,8 +3,8 @@
 use crate::grid::{Field, Grid};
 use crate::units::{Metre, Pascal};
 
-/// Largest contact fraction for which the correlations are to be compared with: they are fits to clean spots far apart, for a
-/// pressure of up to 0.023 of the hardness.
+/// Largest contact fraction for which the correlations are to be compared with: they are fits to clean spots
+/// far apart, for a pressure of up to 0.023 of the hardness.
 pub const MAX_CORRELATED_FRACTION: f64 = 0.05;
 
 /// Roughness of the sum of two surfaces, on which the correlations are based.
@@ -17,8 +17,8 @@ pub struct JointRoughness {
 }
 
 impl JointRoughness {
-    /// Computes the roughness of the undeformed `gap` of the bodies, m, whose neighbours go across the boundary where the
-    /// grid is `periodic`. An axis with a single cell has no slope and does not count.
+    /// Computes the roughness of the undeformed `gap` of the bodies, m, whose neighbours go across the
+    /// boundary where the grid is `periodic`. An axis with a single cell has no slope and does not count.
     ///
     /// # Panics
     /// If the gap has another shape than the grid.
@@ -54,8 +54,9 @@ impl JointRoughness {
     /// h σ/(κ_s m) = 1.25 (P/H)^0.95
     /// ```
     ///
-    /// with the `composite` conductivity κ_s, W/(m K) or S/m, the mean `pressure` P ≥ 0 and the `hardness` H. `None` for
-    /// flat surfaces and for an infinite hardness. Computed contacts of self-affine surfaces have 0.77 to 1.05 of it.
+    /// with the `composite` conductivity κ_s, W/(m K) or S/m, the mean `pressure` P ≥ 0 and the `hardness` H.
+    /// `None` for flat surfaces and for an infinite hardness. Computed contacts of self-affine surfaces have
+    /// 0.77 to 1.05 of it.
     ///
     /// Cooper, Mikic and Yovanovich, Int. J. Heat Mass Transfer 12, 279 (1969); Yovanovich's constants.
     pub fn cooper_mikic_yovanovich(&self, composite: f64, pressure: Pascal, hardness: Pascal) -> Option<f64> {
@@ -68,8 +69,8 @@ impl JointRoughness {
     /// h σ/(κ_s m) = 1.55 (√2 P/(E* m))^0.94
     /// ```
     ///
-    /// with the composite `modulus` E*, and as [`Self::cooper_mikic_yovanovich`] besides; computed contacts have 0.83 to 1.03
-    /// of it.
+    /// with the composite `modulus` E*, and as [`Self::cooper_mikic_yovanovich`] besides; computed contacts
+    /// have 0.83 to 1.03 of it.
     ///
     /// Mikic, Int. J. Heat Mass Transfer 17, 205 (1974).
     pub fn mikic(&self, composite: f64, pressure: Pascal, modulus: Pascal) -> Option<f64> {

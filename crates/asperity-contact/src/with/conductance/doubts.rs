@@ -30,8 +30,8 @@ fn off_the_stiffness(row: &ConductanceRecord) -> Option<String> {
     ))
 }
 
-/// Returns warnings about the conductances of contacts: the least median number of cells of a spot, infinite without contact, and the
-/// largest share of the resistance that the film has decide.
+/// Returns warnings about the conductances of contacts: the least median number of cells of a spot, infinite
+/// without contact, and the largest share of the resistance that the film has decide.
 pub fn doubts(median_cells: f64, film_share: f64) -> Vec<String> {
     let mut warnings = Vec::new();
     if median_cells < FEW_CELLS {

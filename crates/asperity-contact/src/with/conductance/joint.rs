@@ -17,11 +17,11 @@ pub struct Conductance {
     pub grid: Grid,
     /// Continuation of the contact beyond its grid.
     pub boundary: Boundary,
-    /// Conductance G ≥ 0, W/K or S; 0 where nothing conducts. `None` where the joint adds no resistance: all of a period
-    /// touches without a film.
+    /// Conductance G ≥ 0, W/K or S; 0 where nothing conducts. `None` where the joint adds no resistance: all
+    /// of a period touches without a film.
     pub conductance: Option<f64>,
-    /// Flux q per unit drop from the warmer body into the other, W/(m² K) or S/m², 0 in cells that do not conduct. `None` with
-    /// the conductance: any flux then passes without a drop.
+    /// Flux q per unit drop from the warmer body into the other, W/(m² K) or S/m², 0 in cells that do not
+    /// conduct. `None` with the conductance: any flux then passes without a drop.
     pub flux: Option<Field>,
     /// Shares of what conducts.
     pub shares: Shares,
@@ -43,17 +43,19 @@ pub struct Shares {
     pub spots: f64,
     /// Share of the flux that passes through the gas, 0 to 1.
     pub gas: f64,
-    /// Share ρ_f Σ q²/(V Σ q) of the resistance that the film on the spots takes, 0 to 1: above ½ the number given for the
-    /// film decides.
+    /// Share ρ_f Σ q²/(V Σ q) of the resistance that the film on the spots takes, 0 to 1: above ½ the number
+    /// given for the film decides.
     pub film: f64,
 }
 
 impl Conductance {
-    /// Joint conductance h over the apparent area A, that of the grid, W/(m² K) or S/m²: what the joint alone conducts.
+    /// Joint conductance h over the apparent area A, that of the grid, W/(m² K) or S/m²: what the joint alone
+    /// conducts.
     ///
-    /// Under a periodic boundary it is G/A. Else G includes the spreading from the outline of the grid into the half-spaces, whose resistance
-    /// `full` is that of [`full_resistance`]. The joint has 1/((R − R_full) A). `None` with the conductance, and where the resistance cannot be
-    /// split: the spots lie in a part of the grid, as those of a ball, or all of the grid touches.
+    /// Under a periodic boundary it is G/A. Else G includes the spreading from the outline of the grid into
+    /// the half-spaces, whose resistance `full` is that of [`full_resistance`]. The joint has 1/((R − R_full)
+    /// A). `None` with the conductance, and where the resistance cannot be split: the spots lie in a part of
+    /// the grid, as those of a ball, or all of the grid touches.
     pub fn joint_conductance(&self, full: Option<f64>) -> Option<f64> {
         /// Share of R − R_full in R above which it is more than the error of the solution.
         const SIGNIFICANT: f64 = 1e-6;
@@ -67,7 +69,8 @@ impl Conductance {
         (of_joint > SIGNIFICANT * resistance).then(|| (of_joint * area).recip())
     }
 
-    /// Whether the flux is spread over all of the grid along its free axes: the variance of its places is at least a part of that of an even flux.
+    /// Whether the flux is spread over all of the grid along its free axes: the variance of its places is at
+    /// least a part of that of an even flux.
     fn fills_the_grid(&self) -> bool {
         /// Variance of a disc a third as wide as the grid.
         const LEAST: f64 = 0.1;
@@ -84,20 +87,22 @@ impl Conductance {
         })
     }
 
-    /// Resistance R = 1/G, K/W or Ω; `None` where it is none (the conductance is `None`) and where nothing conducts (the
-    /// conductance is 0).
+    /// Resistance R = 1/G, K/W or Ω; `None` where it is none (the conductance is `None`) and where nothing
+    /// conducts (the conductance is 0).
     pub fn resistance(&self) -> Option<f64> {
         self.conductance.filter(|conductance| *conductance > 0.0).map(f64::recip)
     }
 
-    /// Resistance of the clean spots alone by [`ContactSpots::holm_greenwood`] between bodies of this `composite` conductivity, K/W
-    /// or Ω; `None` without contact, and under a boundary that repeats itself, where spots have no end.
+    /// Resistance of the clean spots alone by [`ContactSpots::holm_greenwood`] between bodies of this
+    /// `composite` conductivity, K/W or Ω; `None` without contact, and under a boundary that repeats itself,
+    /// where spots have no end.
     pub fn holm_greenwood(&self, composite: f64) -> Option<f64> {
         let is_alone = self.boundary == Boundary::FREE;
         is_alone.then(|| self.spots.holm_greenwood(composite)).flatten()
     }
 
-    /// Power that passes under the drop V of the `joint`, K or V: the heat GV in W, the Joule heat GV² in W. `None` with the conductance.
+    /// Power that passes under the drop V of the `joint`, K or V: the heat GV in W, the Joule heat GV² in W.
+    /// `None` with the conductance.
     pub fn power(&self, joint: &Joint) -> Option<f64> {
         let flow = self.conductance.map(|conductance| conductance * joint.drop);
         match joint.kind {
@@ -110,14 +115,15 @@ impl Conductance {
 /// Solves a joint for its conductance.
 ///
 /// `operator` makes a drop of a flux: of the composite conductivity κ_s in place of E*, or of
-/// [`conductance::response`](super::response). `touching` are the cells in contact. `gap` is the deformed gap, m, of which open
-/// cells count, negative ones as 0; it is needed with gas alone. `start` is a flux near the answer, up to a factor, such as that
-/// of the position before, if one is known. Of the `params` tolerance and largest number of operator calls count: the
-/// conductance has an error of about the square of the residual.
+/// [`conductance::response`](super::response). `touching` are the cells in contact. `gap` is the deformed
+/// gap, m, of which open cells count, negative ones as 0; it is needed with gas alone. `start` is a flux near
+/// the answer, up to a factor, such as that of the position before, if one is known. Of the `params`
+/// tolerance and largest number of operator calls count: the conductance has an error of about the square of
+/// the residual.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a joint or a gap outside its range, [`Error::Unsupported`] for gas without a gap, for gas between
-/// electrical conductors and on several ranks, [`Error::NotConverged`].
+/// [`Error::OutOfRange`] for a joint or a gap outside its range, [`Error::Unsupported`] for gas without a
+/// gap, for gas between electrical conductors and on several ranks, [`Error::NotConverged`].
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -166,8 +172,9 @@ pub fn solve(
     Ok(Conductance { residual, imbalance, stats, ..found(Some(conductance), Some(flux), shares) })
 }
 
-/// Resistance R_full of a joint all of whose cells touch without a film, K/W or Ω: that of the spreading from the grid into the
-/// half-spaces. R − R_full is what the roughness adds. `None` under a periodic boundary, where there is no spreading.
+/// Resistance R_full of a joint all of whose cells touch without a film, K/W or Ω: that of the spreading from
+/// the grid into the half-spaces. R − R_full is what the roughness adds. `None` under a periodic boundary,
+/// where there is no spreading.
 ///
 /// It depends on the operator alone: of contacts on one grid it is computed once.
 ///

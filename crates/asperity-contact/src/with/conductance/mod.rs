@@ -1,8 +1,8 @@
 //! Thermal or electrical conductance of a contact.
 //!
-//! Heat or current passes from one body into the other where they touch, through a film on the spots, and through gas in the
-//! gap. It is steady, and the bodies are half-spaces below their surfaces. The flux q is that from the warmer body into the
-//! other, V the drop between their far fields:
+//! Heat or current passes from one body into the other where they touch, through a film on the spots, and
+//! through gas in the gap. It is steady, and the bodies are half-spaces below their surfaces. The flux q is
+//! that from the warmer body into the other, V the drop between their far fields:
 //!
 //! ```text
 //! (C + D) q = V          G = ΔA Σ q/V,   h = G/A,   R = 1/G
@@ -10,9 +10,9 @@
 //! D = (g + M)/κ_g        on open ones with gas; without it they do not conduct
 //! ```
 //!
-//! C is an [`Operator`](crate::operator::Operator) made of the composite conductivity κ_s in place of the composite modulus E*, as a half-space answers
-//! to a flux as it does to a pressure: both with the potential 1/r. In contact are all cells that bear a pressure, those at the
-//! hardness too.
+//! C is an [`Operator`](crate::operator::Operator) made of the composite conductivity κ_s in place of the
+//! composite modulus E*, as a half-space answers to a flux as it does to a pressure: both with the potential
+//! 1/r. In contact are all cells that bear a pressure, those at the hardness too.
 //!
 //! | boundary | V is | G contains |
 //! |---|---|---|
@@ -20,8 +20,8 @@
 //! | periodic | the drop that the joint adds to that between the mean planes | the joint alone: h is the joint conductance of the textbooks |
 //! | periodic along one axis | the drop against the distance r₀ of the [`Operators`] | as free, with a line of grids |
 //!
-//! Radiation and convection are left out. The position of bodies in motion is taken as steady, which it is if it lasts much
-//! longer than spot²/D, D the diffusivity.
+//! Radiation and convection are left out. The position of bodies in motion is taken as steady, which it is if
+//! it lasts much longer than spot²/D, D the diffusivity.
 //!
 //! ```
 //! use asperity_contact::conductance::{Joint, Kind, composite_conductivity, solve};

@@ -11,15 +11,16 @@ use crate::with::Row;
 use asperity_base::record::{Column, OptionalNumber, Part, Presence, Record, columns, known_or_none};
 
 columns! {
-    /// The conductance of a contact, a row of `conductance.csv`; in `summary.json` of the last contact, or the mean over the contacts
-    /// of each pass. The columns of its [`Quantities`] come last.
+    /// The conductance of a contact, a row of `conductance.csv`; in `summary.json` of the last contact, or
+    /// the mean over the contacts of each pass. The columns of its [`Quantities`] come last.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct ConductanceRecord {
         /// Pass of a motion, from 1; left out of a static contact.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub pass: Option<usize>,
-        /// Position in the pass, increment, point (each from 1) or update (from 0); unknown in the mean over a pass.
+        /// Position in the pass, increment, point (each from 1) or update (from 0); unknown in the mean over
+        /// a pass.
         pub step: Option<usize>,
         /// Load.
         pub load: Newton,
@@ -37,8 +38,8 @@ columns! {
         pub gas_share: f64,
         /// Share of the resistance that the film on the spots has.
         pub film_share: f64,
-        /// Heat that passes under the temperature difference `drop`; of a current, the heat that it makes. Unknown where the joint has
-        /// no resistance.
+        /// Heat that passes under the temperature difference `drop`; of a current, the heat that it makes.
+        /// Unknown where the joint has no resistance.
         #[serde(deserialize_with = "known_or_none")]
         pub power: Option<Watt>,
         /// Convolutions for the conductance.
@@ -57,7 +58,8 @@ macro_rules! quantities {
         $(#[doc = $text:literal])+
         $name:ident: [$thermal:literal, $electrical:literal], $presence:ident;
     )+) => {
-        /// The quantities of a conductance. Their columns begin with the kind: `thermal_resistance`, `electrical_resistance`.
+        /// The quantities of a conductance. Their columns begin with the kind: `thermal_resistance`,
+        /// `electrical_resistance`.
         #[derive(Debug, Clone, PartialEq)]
         #[non_exhaustive]
         pub struct Quantities {
@@ -95,21 +97,23 @@ quantities! {
     conductivity: ["W/(m K)", "S/m"], Always;
     /// Conductance of the contact; unknown where it adds no resistance.
     conductance: ["W/K", "S"], Unknown;
-    /// Joint conductance h over the apparent area, without the spreading from the outline of the grid into the bodies. It is unknown where the
-    /// contact adds no resistance, and where the two cannot be split: curved bodies under a free boundary, spots in a part of the grid.
+    /// Joint conductance h over the apparent area, without the spreading from the outline of the grid into
+    /// the bodies. It is unknown where the contact adds no resistance, and where the two cannot be split:
+    /// curved bodies under a free boundary, spots in a part of the grid.
     joint_conductance: ["W/(m² K)", "S/m²"], Unknown;
     /// Resistance; unknown where nothing conducts, and where the contact adds no resistance.
     resistance: ["K/W", "Ω"], Unknown;
-    /// Resistance with all cells in contact, that of the spreading from the outline of the grid; unknown under a periodic boundary, and in the
-    /// mean over a pass.
+    /// Resistance with all cells in contact, that of the spreading from the outline of the grid; unknown
+    /// under a periodic boundary, and in the mean over a pass.
     resistance_full: ["K/W", "Ω"], Unknown;
-    /// Conductance by Barber's identity, 2K/(E*(ρ₁ + ρ₂)) with the normal stiffness K and the resistivities ρ, to check the conductance; known at
-    /// the points of a sweep whose contact is elastic, without coating, film and gas.
+    /// Conductance by Barber's identity, 2K/(E*(ρ₁ + ρ₂)) with the normal stiffness K and the resistivities
+    /// ρ, to check the conductance; known at the points of a sweep whose contact is elastic, without coating,
+    /// film and gas.
     conductance_of_stiffness: ["W/K", "S"], Unknown;
     /// Estimate of Holm and Greenwood of the resistance of the spots, under a free boundary.
     resistance_holm_greenwood: ["K/W", "Ω"], Unknown;
-    /// Joint conductance of clean spots by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for elastic bodies; unknown from
-    /// 5 % of contact on.
+    /// Joint conductance of clean spots by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for
+    /// elastic bodies; unknown from 5 % of contact on.
     joint_correlation: ["W/(m² K)", "S/m²"], Unknown;
 }
 
@@ -230,8 +234,9 @@ impl ConductanceRecord {
         if self.load == 0.0 { 0.0 } else { self.contact_area * self.mean_pressure / self.load }
     }
 
-    /// Returns the mean over the contacts of each pass: at a common difference of temperature or potential the conductance has the
-    /// mean of its values, and the resistance is its reciprocal. The joint conductance is the mean of those that are known.
+    /// Returns the mean over the contacts of each pass: at a common difference of temperature or potential
+    /// the conductance has the mean of its values, and the resistance is its reciprocal. The joint
+    /// conductance is the mean of those that are known.
     pub fn means(rows: &[Self]) -> Vec<Self> {
         rows.chunk_by(|one, other| one.pass == other.pass).map(Self::mean).collect()
     }

@@ -7,13 +7,14 @@ use ndarray::Array2;
 use crate::grid::{Grid, Spots};
 use crate::units::{Metre, SquareMetre};
 
-/// The spots of a contact: cells in contact that are connected over edges and corners, across a periodic boundary too.
+/// The spots of a contact: cells in contact that are connected over edges and corners, across a periodic
+/// boundary too.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactSpots {
     /// Area of each spot, m², in the order of their first cells `[ix, iy]`.
     pub areas: Vec<SquareMetre>,
-    /// Mean position of the cells of each spot, m from the corner of the grid; without meaning for a spot across a periodic
-    /// boundary.
+    /// Mean position of the cells of each spot, m from the corner of the grid; without meaning for a spot
+    /// across a periodic boundary.
     pub centres: Vec<[Metre; 2]>,
     /// Median number of cells of a spot; 0 without contact. Under 9, the cells are too coarse for the spots.
     pub median_cells: f64,
@@ -51,16 +52,19 @@ impl ContactSpots {
         self.areas.len()
     }
 
-    /// Resistance of the spots on two half-spaces of the `composite` conductivity κ_s, K/W or Ω, by the estimate
+    /// Resistance of the spots on two half-spaces of the `composite` conductivity κ_s, K/W or Ω, by the
+    /// estimate
     ///
     /// ```text
     /// R = 1/(2κ_s Σ aᵢ) + Σ_{i≠j} aᵢaⱼ/sᵢⱼ/(πκ_s (Σ aᵢ)²)        aᵢ = √(Aᵢ/π)
     /// ```
     ///
-    /// with the distances sᵢⱼ of the centres. `None` without a spot. On rough contacts it is off by −4 % at 1 % of contact,
-    /// by +7 % at 23 % and by +16 % at 41 %. Its cost grows with the square of the number of spots.
+    /// with the distances sᵢⱼ of the centres. `None` without a spot. On rough contacts it is off by −4 % at 1
+    /// % of contact, by +7 % at 23 % and by +16 % at 41 %. Its cost grows with the square of the number of
+    /// spots.
     ///
-    /// Holm, Electric Contacts (1967); Greenwood, Br. J. Appl. Phys. 17, 1621 (1966), with fluxes in proportion to aᵢ.
+    /// Holm, Electric Contacts (1967); Greenwood, Br. J. Appl. Phys. 17, 1621 (1966), with fluxes in
+    /// proportion to aᵢ.
     pub fn holm_greenwood(&self, composite: f64) -> Option<f64> {
         let radii: Vec<f64> = self.areas.iter().map(|area| (area / PI).sqrt()).collect();
         let sum: f64 = radii.iter().sum();

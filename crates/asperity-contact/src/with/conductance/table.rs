@@ -54,7 +54,8 @@ impl Kind {
     }
 }
 
-/// The joint between the bodies: spots, a film on them, and gas around them; and which joints of a case are computed.
+/// The joint between the bodies: spots, a film on them, and gas around them; and which joints of a case are
+/// computed.
 #[derive(Table, Debug, Clone, Copy, PartialEq, Serialize)]
 #[table("conductance")]
 #[non_exhaustive]
@@ -104,8 +105,8 @@ pub struct Joint {
         example = "\"10 K\""
     )]
     pub drop: f64,
-    /// Interval of the positions of a pass, or of the increments, updates or points, whose conductance is computed; 0: once a pass, where
-    /// the left edges are flush, or for the last contact alone.
+    /// Interval of the positions of a pass, or of the increments, updates or points, whose conductance is
+    /// computed; 0: once a pass, where the left edges are flush, or for the last contact alone.
     #[key(count = 0, default = 1, example = "4")]
     pub every: usize,
 }
@@ -142,7 +143,8 @@ impl Joint {
     /// Checks the numbers.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a number outside its range, [`Error::Unsupported`] for gas between electrical conductors.
+    /// [`Error::OutOfRange`] for a number outside its range, [`Error::Unsupported`] for gas between
+    /// electrical conductors.
     pub fn check(&self) -> Result<()> {
         let Self { kind, film, gas, jump, .. } = *self;
         let not_negative = |value: f64| value >= 0.0 && value.is_finite();

@@ -8,7 +8,8 @@ pub(super) const RIM: usize = 6;
 
 /// Share of the squared radius that is rounding.
 const ROUNDING: f64 = 1e-14;
-/// Square of a distance from the plane through the other points, over the squared radius, below which a point lies in it.
+/// Square of a distance from the plane through the other points, over the squared radius, below which a point
+/// lies in it.
 const FLAT: f64 = 1e-24;
 
 fn dot(a: &Point, b: &Point) -> f64 {
@@ -86,8 +87,8 @@ impl Rim {
         true
     }
 
-    /// Finds the smallest ball around the first `count` of the points with the present rim. Points that turn out to lie on the rim move
-    /// to the front.
+    /// Finds the smallest ball around the first `count` of the points with the present rim. Points that turn
+    /// out to lie on the rim move to the front.
     fn enclose(&mut self, points: &mut [Point], count: usize) {
         if self.count == RIM {
             return;

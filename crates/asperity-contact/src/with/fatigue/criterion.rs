@@ -12,10 +12,12 @@ pub struct DangVan {
 }
 
 impl DangVan {
-    /// Creates the criterion of a material from its limits of alternating `torsion` and `tension`: amplitudes.
+    /// Creates the criterion of a material from its limits of alternating `torsion` and `tension`:
+    /// amplitudes.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless both are above 0 and the tension is at most twice the torsion.
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless both are above 0 and the tension is at most
+    /// twice the torsion.
     pub fn new(torsion: Pascal, tension: Pascal) -> Result<Self> {
         let is_limit = torsion > 0.0 && torsion.is_finite();
         check_in(Dimension::Pressure, "torsion", torsion, is_limit, "a limit above 0")?;

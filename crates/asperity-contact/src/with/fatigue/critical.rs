@@ -1,4 +1,5 @@
-//! The wear that is faster than fatigue: a column that loses as much in each load cycle is gone before it fails.
+//! The wear that is faster than fatigue: a column that loses as much in each load cycle is gone before it
+//! fails.
 
 use ndarray::{Array3, Axis};
 use serde::{Deserialize, Serialize};
@@ -32,8 +33,8 @@ columns! {
     }
 }
 
-/// Returns the depth that a column must lose in a load cycle for it not to pit, m: ∫ d dz, from the damage of a cycle at ascending `depths`. The damage
-/// at the first depth reaches to the surface.
+/// Returns the depth that a column must lose in a load cycle for it not to pit, m: ∫ d dz, from the damage of
+/// a cycle at ascending `depths`. The damage at the first depth reaches to the surface.
 ///
 /// # Panics
 /// If there is not a damage for each depth.
@@ -44,7 +45,8 @@ pub fn critical_depth(depths: &[Metre], damage: &[f64]) -> Metre {
     first * most + below.map(|(z, d)| 0.5 * (z[1] - z[0]) * (d[0] + d[1])).sum::<f64>()
 }
 
-/// Returns the [`critical_depth`] of each column, from the damage of a load cycle at ascending `depths`, `[iz, ix, iy]`.
+/// Returns the [`critical_depth`] of each column, from the damage of a load cycle at ascending `depths`,
+/// `[iz, ix, iy]`.
 ///
 /// # Panics
 /// If there is not a damage for each depth.
@@ -60,7 +62,8 @@ pub(super) fn prepare(body: &mut Body) {
     }
 }
 
-/// Returns the columns of a body that needs these depths of its columns, and the names and values of its fields.
+/// Returns the columns of a body that needs these depths of its columns, and the names and values of its
+/// fields.
 pub(super) fn of_body(body: &Body, needed: Field) -> (Critical, Vec<(&'static str, Field)>) {
     let most = needed.iter().copied().fold(0.0, f64::max);
     let is_much = |needed: f64| needed > MUCH * most;

@@ -12,8 +12,8 @@ pub struct Basquin {
 }
 
 impl Basquin {
-    /// Creates the law d = (f/b)^m/N₀ of a cycle with the `exponent` m and the `cycles` N₀ at the limit. With `endurance` there is no damage
-    /// below the limit.
+    /// Creates the law d = (f/b)^m/N₀ of a cycle with the `exponent` m and the `cycles` N₀ at the limit. With
+    /// `endurance` there is no damage below the limit.
     ///
     /// # Errors
     /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless both are above 0, and the exponent at most 100.
@@ -32,8 +32,9 @@ impl Basquin {
     }
 }
 
-/// Advances the damage of a column at ascending `depths` over so many `cycles` in each of which it suffers the damage `each` and loses the depth `removed`.
-/// Depths count from the surface as it is: worn material uncovers what lies below. Below the last depth nothing has suffered.
+/// Advances the damage of a column at ascending `depths` over so many `cycles` in each of which it suffers
+/// the damage `each` and loses the depth `removed`. Depths count from the surface as it is: worn material
+/// uncovers what lies below. Below the last depth nothing has suffered.
 ///
 /// # Panics
 /// If there is not a damage for each depth.
@@ -73,8 +74,8 @@ pub fn advance_damage(depths: &[Metre], damage: &mut [f64], each: &[f64], cycles
     damage.copy_from_slice(&after);
 }
 
-/// Volume of material at risk per area, by Ioannides and Harris: ∫ (σ − σᵤ)₊^c z^(−h) dz over ascending `depths` > 0, from amplitudes of the
-/// stress. Only ratios of it have a meaning.
+/// Volume of material at risk per area, by Ioannides and Harris: ∫ (σ − σᵤ)₊^c z^(−h) dz over ascending
+/// `depths` > 0, from amplitudes of the stress. Only ratios of it have a meaning.
 ///
 /// # Panics
 /// If there is not an amplitude for each depth.

@@ -11,7 +11,8 @@ use crate::stress::Stress;
 use crate::subsurface::{StressAtDepth, Tractions};
 use crate::units::{Dimension, Metre, Pascal};
 
-/// Bytes of the stress that is kept instead of computed anew for each sweep, at all depths that are computed at the same time.
+/// Bytes of the stress that is kept instead of computed anew for each sweep, at all depths that are computed
+/// at the same time.
 const KEPT: f64 = 512e6;
 /// Sweeps over the contacts without an end, which do not happen.
 const MOST_SWEEPS: usize = 64;
@@ -20,10 +21,11 @@ const OUTSIDE: f64 = 1e-10;
 /// Rounding of the stress over the largest pressure.
 const ROUNDING: f64 = 1e-14;
 
-/// A body under a load cycle, which repeats: the contacts that it sees, one after another, as those of a pass or of a cycle of fretting.
+/// A body under a load cycle, which repeats: the contacts that it sees, one after another, as those of a pass
+/// or of a cycle of fretting.
 ///
-/// `tractions` returns the tractions on this body, on its own cells, in a contact of the cycle, from 0. It is called several times for each
-/// contact, from several threads.
+/// `tractions` returns the tractions on this body, on its own cells, in a contact of the cycle, from 0. It is
+/// called several times for each contact, from several threads.
 pub struct StressHistory<'a, F> {
     grid: Grid,
     boundary: Boundary,
@@ -116,8 +118,8 @@ impl Grown {
 }
 
 impl DangVan {
-    /// Returns f of a point that sees this `history` of stresses again and again, and the radius of the smallest ball around its deviators.
-    /// Without stresses f is −∞.
+    /// Returns f of a point that sees this `history` of stresses again and again, and the radius of the
+    /// smallest ball around its deviators. Without stresses f is −∞.
     pub fn of(&self, history: &[Stress]) -> [Pascal; 2] {
         let components = history.iter().map(Stress::components);
         let largest = components.clone().flatten().fold(0.0f64, |most, s| most.max(s.abs()));

@@ -13,8 +13,8 @@ use crate::units::Metre;
 /// Part of a life by which a pit may be late, because a cycle is extrapolated over several.
 const LATE: f64 = 0.05;
 
-/// The damage of two bodies: f of each load cycle, by Dang Van, and the damage that adds up, by Basquin and Miner. Both are states of a
-/// body, a field for each depth.
+/// The damage of two bodies: f of each load cycle, by Dang Van, and the damage that adds up, by Basquin and
+/// Miner. Both are states of a body, a field for each depth.
 pub(super) struct Damage(pub(super) Below);
 
 /// Names of the states of a body.
@@ -73,8 +73,8 @@ fn taken(body: &mut Body, name: &str) -> Field {
     body.state.remove(name).expect("a state that was prepared").values
 }
 
-/// Breaks out a column above the deepest of its first `pitting` depths at which the damage has reached 1, and returns the depth lost. The pit
-/// ends where the damage between two depths falls to 1.
+/// Breaks out a column above the deepest of its first `pitting` depths at which the damage has reached 1, and
+/// returns the depth lost. The pit ends where the damage between two depths falls to 1.
 fn pit(depths: &[Metre], damage: &mut [f64], pitting: usize) -> Metre {
     let Some(failed) = damage[..pitting].iter().rposition(|damage| *damage >= 1.0) else { return 0.0 };
     let bottom = match depths.get(failed + 1) {
@@ -169,7 +169,8 @@ impl Memory for Damage {
     }
 }
 
-/// Returns the hydrostatic part of the residual stress at a depth, linear between the centres of the layers; 0 below them.
+/// Returns the hydrostatic part of the residual stress at a depth, linear between the centres of the layers;
+/// 0 below them.
 fn residual_hydrostatic(volume: &PlasticVolume, depth: Metre) -> Field {
     let centres: Vec<Metre> = volume.faces.windows(2).map(|faces| 0.5 * (faces[0] + faces[1])).collect();
     let trace = |layer: usize| {

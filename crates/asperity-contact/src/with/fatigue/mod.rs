@@ -1,14 +1,16 @@
-//! Fatigue below the surface of a body under loads that repeat: contacts that pass over it, or the cycles of one contact.
+//! Fatigue below the surface of a body under loads that repeat: contacts that pass over it, or the cycles of
+//! one contact.
 //!
-//! Each point sees a stress in each contact of a load cycle, and the cycle repeats. [`StressHistory`] computes the stress of all contacts depth by
-//! depth, and from it Dang Van's f. Nothing fails in the end where f is below the limit b of [`DangVan`]:
+//! Each point sees a stress in each contact of a load cycle, and the cycle repeats. [`StressHistory`]
+//! computes the stress of all contacts depth by depth, and from it Dang Van's f. Nothing fails in the end
+//! where f is below the limit b of [`DangVan`]:
 //!
 //! ```text
 //! f = max over the contacts of τ + a σh
 //! ```
 //!
-//! σh is the hydrostatic stress, and τ the largest shear of the deviator less s*, the centre of the smallest ball around all deviators in
-//! five dimensions: the residual stress that shakedown leaves in a grain.
+//! σh is the hydrostatic stress, and τ the largest shear of the deviator less s*, the centre of the smallest
+//! ball around all deviators in five dimensions: the residual stress that shakedown leaves in a grain.
 //!
 //! ```
 //! use asperity_contact::fatigue::{DangVan, StressHistory};

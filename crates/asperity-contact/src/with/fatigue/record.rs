@@ -22,7 +22,8 @@ pub enum OnBody {
 choice!(OnBody: "lower" => Lower, "upper" => Upper);
 
 columns! {
-    /// Fatigue below the surface of a body in a pass or a cycle, a row of `fatigue.csv`; in `summary.json` of the last one.
+    /// Fatigue below the surface of a body in a pass or a cycle, a row of `fatigue.csv`; in `summary.json` of
+    /// the last one.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct FatigueRecord {
@@ -32,10 +33,12 @@ columns! {
         /// Stage of the loading, from 1; left out of passes.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub stage: Option<usize>,
-        /// Cycles of all stages that are done after this one, with those that it stands for; left out of passes.
+        /// Cycles of all stages that are done after this one, with those that it stands for; left out of
+        /// passes.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub cycle: Option<usize>,
-        /// Position of the pass, or increment of the loading, up to which the stresses count: the last one of the pass or cycle.
+        /// Position of the pass, or increment of the loading, up to which the stresses count: the last one of
+        /// the pass or cycle.
         pub step: usize,
         /// The body: `lower` or `upper`.
         pub body: OnBody,
@@ -51,12 +54,15 @@ columns! {
         pub depth: Metre,
         /// Cells from this place to the nearest free edge of the body; unknown without one.
         pub edge_cells: Option<usize>,
-        /// Largest damage that this pass or cycle does, which adds up to 1 at failure; 0 below the limit with an endurance limit.
+        /// Largest damage that this pass or cycle does, which adds up to 1 at failure; 0 below the limit with
+        /// an endurance limit.
         pub damage_of_pass: f64,
-        /// Largest damage after the pass or cycle and its extrapolation, less what has worn away or broken out.
+        /// Largest damage after the pass or cycle and its extrapolation, less what has worn away or broken
+        /// out.
         #[over_motion(State)]
         pub damage: f64,
-        /// Pass of the motion, or cycle of the loading, in which a point first fails if all go on like this one and nothing is removed; unknown without damage.
+        /// Pass of the motion, or cycle of the loading, in which a point first fails if all go on like this
+        /// one and nothing is removed; unknown without damage.
         #[over_motion(State)]
         pub life: Option<f64>,
         /// The removal that is faster.
@@ -65,12 +71,14 @@ columns! {
         /// Share of the columns that have broken out so far; unknown without `pit_depth`.
         #[over_motion(State)]
         pub pitted_share: Option<f64>,
-        /// Life over that of the bodies without their roughness, by the risk of Ioannides and Harris; unknown without `risk`, and for flat bodies.
+        /// Life over that of the bodies without their roughness, by the risk of Ioannides and Harris; unknown
+        /// without `risk`, and for flat bodies.
         pub life_ratio: Option<f64>,
-        /// Plastic work below the surface of the body in the pass: f is that of shakedown, where it is 0; unknown for other than elasto-plastic bodies.
+        /// Plastic work below the surface of the body in the pass: f is that of shakedown, where it is 0;
+        /// unknown for other than elasto-plastic bodies.
         pub plastic_work: Option<Joule>,
-        /// Distance between two positions whose stress is computed, over the width of the widest spot of contact; left out of the cycles of a
-        /// loading.
+        /// Distance between two positions whose stress is computed, over the width of the widest spot of
+        /// contact; left out of the cycles of a loading.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub stride: Option<f64>,
     }

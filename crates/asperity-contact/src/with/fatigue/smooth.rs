@@ -14,7 +14,8 @@ use asperity_surface::{Level, Topography};
 /// Exponents e of Weibull's law of lives, of point and of line contacts, by Lundberg and Palmgren.
 const POINT: f64 = 10.0 / 9.0;
 const LINE: f64 = 9.0 / 8.0;
-/// Largest part of the overlap that a contact of smooth curved bodies covers. Bodies that touch on more are flat.
+/// Largest part of the overlap that a contact of smooth curved bodies covers. Bodies that touch on more are
+/// flat.
 const FLAT: f64 = 0.8;
 
 /// Bodies without their roughness: those of second order that fit best.
@@ -42,8 +43,9 @@ impl Smooth {
         Ok(Self { pair, params: given.params, found: OnceLock::new() })
     }
 
-    /// Returns the life of a body, by its index, over that of the smooth one under the same load, (I_smooth/I)^(1/e), from its f over the limit at
-    /// each depth. `None` if the smooth bodies are flat, or if nothing is at risk.
+    /// Returns the life of a body, by its index, over that of the smooth one under the same load,
+    /// (I_smooth/I)^(1/e), from its f over the limit at each depth. `None` if the smooth bodies are flat, or
+    /// if nothing is at risk.
     ///
     /// # Errors
     /// The errors of the contact of the smooth bodies; [`Error::Interrupted`](crate::Error::Interrupted).

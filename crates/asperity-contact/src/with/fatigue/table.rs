@@ -11,7 +11,8 @@ use asperity_base::exists;
 use asperity_base::table::{Bounds, Exists, Key, Kind, Source, Value, list, require};
 use asperity_derive::Table;
 
-/// Fatigue below the surfaces of bodies under loads that repeat: in the passes of a motion, or in the cycles of a history.
+/// Fatigue below the surfaces of bodies under loads that repeat: in the passes of a motion, or in the cycles
+/// of a history.
 #[derive(Table, Debug, Clone, PartialEq, Serialize)]
 #[table("fatigue")]
 #[non_exhaustive]
@@ -79,11 +80,13 @@ pub struct FatigueLimits {
     pub risk: bool,
 }
 
-/// Ashby, Materials Selection in Mechanical Design: endurance limits of soft polymers to hardened steels, with a margin.
+/// Ashby, Materials Selection in Mechanical Design: endurance limits of soft polymers to hardened steels,
+/// with a margin.
 const STRENGTH: Exists =
     Exists::Within { least: 1e5, most: 5e9, of: "soft polymers to hardened steels", slips: &["MPa"] };
 
-/// Stephens, Fatemi, Stephens, Fuchs, Metal Fatigue in Engineering: 3 of welds to about 25 of smooth steel and ceramics.
+/// Stephens, Fatemi, Stephens, Fuchs, Metal Fatigue in Engineering: 3 of welds to about 25 of smooth steel
+/// and ceramics.
 const EXPONENT: Exists = Exists::Within { least: 2.0, most: 40.0, of: "welds to ceramics", slips: &[] };
 const CYCLES: Exists =
     Exists::Within { least: 3e4, most: 5e9, of: "the knee of soft metals to very high cycles", slips: &[] };
@@ -143,7 +146,8 @@ impl Fatigue {
         (0..self.layers).map(|k| first * step.powi(k as i32)).collect()
     }
 
-    /// Whether it looks at a load cycle, by the number of the computed pass, or of the computed cycle of its stage.
+    /// Whether it looks at a load cycle, by the number of the computed pass, or of the computed cycle of its
+    /// stage.
     pub fn wants(&self, number: usize) -> bool {
         self.passes.is_empty() || self.passes.contains(&number)
     }

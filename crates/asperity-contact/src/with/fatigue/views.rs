@@ -207,7 +207,8 @@ const APART: f64 = 2.5;
 /// Distance between two positions over the width of a spot that needs no warning.
 const STRIDE: f64 = 0.25;
 
-/// Plastic work of the last pass, over the largest of a pass, that bodies which have shaken down may have left.
+/// Plastic work of the last pass, over the largest of a pass, that bodies which have shaken down may have
+/// left.
 const STILL: f64 = 1e-3;
 
 /// Returns reasons in the rows not to trust them.

@@ -7,13 +7,13 @@ pub(super) fn mean_decay(a: f64) -> f64 {
     if a > 1e-8 { -(-a).exp_m1() / a } else { 1.0 - 0.5 * a }
 }
 
-/// Growth g and removal l of a mechano-chemical film in a cell at constant exponents G and R per pass, as functions of the
-/// passes t since the beginning.
+/// Growth g and removal l of a mechano-chemical film in a cell at constant exponents G and R per pass, as
+/// functions of the passes t since the beginning.
 ///
 /// g = f_max + (g₀ − f_max) e^(−Gt),  l = C₃ + (l₀ − C₃) e^(−Rt),  f = g − l
 ///
-/// Where f would fall below 0 the cell is bare, l = g, while R (C₃ − g) ≥ G (f_max − g). It grows again from g* = (R C₃ − G
-/// f_max)/(R − G) on.
+/// Where f would fall below 0 the cell is bare, l = g, while R (C₃ − g) ≥ G (f_max − g). It grows again from
+/// g* = (R C₃ − G f_max)/(R − G) on.
 pub(super) struct Balance {
     /// The largest thickness f_max, and the final removal C₃.
     ends: [Metre; 2],
@@ -89,8 +89,8 @@ impl Balance {
         Self { begin: [grown; 2], bare: None, ..*self }
     }
 
-    /// Returns the passes between which the cell is bare, for a film that is used up, whose removal is faster than its
-    /// growth.
+    /// Returns the passes between which the cell is bare, for a film that is used up, whose removal is faster
+    /// than its growth.
     fn bare(&self) -> Option<[f64; 2]> {
         let ([most, removed], [growth, removal]) = (self.ends, self.rates);
         let (to_grow, to_remove) = (most - self.begin[0], removed - self.begin[1]);

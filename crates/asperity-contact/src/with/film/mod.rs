@@ -31,8 +31,8 @@ pub const FILM: &str = "film";
 /// Name of the body state that stores the growth by the mechano-chemical law, m.
 const GROWN: &str = "film_grown";
 
-/// Largest exponent of Arrhenius' law. A film that grows at e⁵⁰⁰ of the known rate reaches its limit at once. Sums of such
-/// rates over positions, passes and time stay finite.
+/// Largest exponent of Arrhenius' law. A film that grows at e⁵⁰⁰ of the known rate reaches its limit at once.
+/// Sums of such rates over positions, passes and time stay finite.
 const MAX_EXPONENT: f64 = 500.0;
 
 impl BodyLaw for Film {
@@ -88,8 +88,9 @@ impl BodyLaw for Film {
 }
 
 impl Film {
-    /// Adds the rates of growth and removal at a position to their sums on a body, 0 or 1. Arrhenius: ∫G dt in m and ∫R dt.
-    /// Mechano-chemical: the exponents of growth and removal. Solid lubricant: nothing, and the depth worn off, m.
+    /// Adds the rates of growth and removal at a position to their sums on a body, 0 or 1. Arrhenius: ∫G dt
+    /// in m and ∫R dt. Mechano-chemical: the exponents of growth and removal. Solid lubricant: nothing, and
+    /// the depth worn off, m.
     pub(in crate::with) fn add_rates(&self, body: usize, contact_cells: &ContactCells, sums: &mut [Field]) {
         let [grown, removed] = sums else { unreachable!("two sums") };
         let temperature = contact_cells.temperature[body];
@@ -141,7 +142,8 @@ impl Film {
         FilmStates { thickness: field(FILM).unwrap_or_default(), grown: field(GROWN).unwrap_or_default() }
     }
 
-    /// Returns the thickness and growth of a cell after `passes` passes; exact if contact and temperature are frozen.
+    /// Returns the thickness and growth of a cell after `passes` passes; exact if contact and temperature are
+    /// frozen.
     fn after(&self, [thickness, grown]: [Metre; 2], [growth, removal]: [f64; 2], passes: f64) -> [Metre; 2] {
         match self.law {
             FilmLaw::Arrhenius { .. } => {
@@ -184,7 +186,8 @@ impl Film {
         }
     }
 
-    /// Prepares a body: sets the initial film if there is none yet. Returns the hardness of the body without its film.
+    /// Prepares a body: sets the initial film if there is none yet. Returns the hardness of the body without
+    /// its film.
     fn prepare(&self, body: &mut Body) -> CellValues {
         let (states, begin) = match self.law {
             FilmLaw::Arrhenius { .. } => (&[FILM][..], 0.0),
@@ -201,7 +204,8 @@ impl Film {
         bare
     }
 
-    /// Sets the hardness of a body under its film, H − (H − H_f) min(f/f_max, 1), from the hardness of the `bare` body.
+    /// Sets the hardness of a body under its film, H − (H − H_f) min(f/f_max, 1), from the hardness of the
+    /// `bare` body.
     fn set_hardness(&self, body: &mut Body, bare: &CellValues) {
         let Some(soft) = self.hardness else { return };
         let thickness = &body.state[FILM].values;
@@ -243,7 +247,8 @@ impl<'a> GrowthSums<'a> {
     }
 }
 
-/// Growth and removal of the films of both bodies. The heights grow with the films, and cells under a soft film carry less.
+/// Growth and removal of the films of both bodies. The heights grow with the films, and cells under a soft
+/// film carry less.
 #[derive(Debug, Clone)]
 pub struct Films {
     films: [Option<Film>; 2],
@@ -255,7 +260,8 @@ impl Films {
     /// Creates the films of the lower and of the upper body; `None` for a body without film.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`]; [`Error::Unsupported`] if a film is harder than its body, or if a film has a hardness and its body has none.
+    /// [`Error::OutOfRange`]; [`Error::Unsupported`] if a film is harder than its body, or if a film has a
+    /// hardness and its body has none.
     pub fn new(films: [Option<Film>; 2], pair: &Pair) -> Result<Self> {
         films.iter().flatten().try_for_each(Film::checked)?;
         for (film, body) in films.iter().zip([&pair.lower, &pair.upper]) {

@@ -22,7 +22,8 @@ pub struct Film {
     /// Upper limit of the film thickness.
     #[key(quantity = Length, range = AboveZero, example = "\"150 nm\"", exists = THICKNESS, beside = [THIN])]
     pub max_thickness: Metre,
-    /// Hardness under the thickest film, at most the hardness of the body; interpolated linearly in the thickness.
+    /// Hardness under the thickest film, at most the hardness of the body; interpolated linearly in the
+    /// thickness.
     #[key(
         quantity = Pressure,
         range = AboveZero,
@@ -85,9 +86,11 @@ pub enum FilmLaw {
         #[key(number = "a number", range = Within(RATES, true), example = "0.01")]
         c4: f64,
     },
-    /// A solid lubricant, such as bonded MoS₂, which begins at its largest thickness and is only worn off: df = −k p |ds| while f > 0.
+    /// A solid lubricant, such as bonded MoS₂, which begins at its largest thickness and is only worn off: df
+    /// = −k p |ds| while f > 0.
     SolidLubricant {
-        /// Film volume lost per load and sliding distance, until the film is worn off; the heights of the surface include the film.
+        /// Film volume lost per load and sliding distance, until the film is worn off; the heights of the
+        /// surface include the film.
         #[key(quantity = VolumePerWork, range = AboveZero, example = "\"1e-6 mm3/(N m)\"", exists = VOLUME_PER_WORK)]
         wear: PerPascal,
     },
@@ -104,11 +107,11 @@ pub enum FilmStress {
 
 choice!(FilmStress: "pressure" => Pressure, "shear" => Shear);
 
-/// Accepted activation energies, besides 0: up to 60 eV, far above that of any chemical bond. A number in eV without its
-/// unit is rejected.
+/// Accepted activation energies, besides 0: up to 60 eV, far above that of any chemical bond. A number in eV
+/// without its unit is rejected.
 const ENERGIES: Range = Range { least: 1e-24, most: 1e-17, unit: "J" };
-/// Accepted activation volumes, besides 0: up to 1 µm³, for soft bodies under small stresses. A number in nm³ without its
-/// unit is rejected.
+/// Accepted activation volumes, besides 0: up to 1 µm³, for soft bodies under small stresses. A number in nm³
+/// without its unit is rejected.
 const VOLUMES: Range = Range { least: 1e-36, most: 1e-18, unit: "m³" };
 /// Accepted temperatures of a known growth rate. A number below 200, in °C without its unit, is rejected.
 const TEMPERATURES: Range = Range { least: 200.0, most: 5000.0, unit: "K" };
@@ -148,8 +151,8 @@ fn thinner(read: &Film, source: &dyn Source) -> Result<()> {
 }
 
 impl Film {
-    /// Creates a film of thickness at most `max_thickness`, > 0, with a law. At its thickest it can carry at most the
-    /// pressure `hardness`, which is below that of the body.
+    /// Creates a film of thickness at most `max_thickness`, > 0, with a law. At its thickest it can carry at
+    /// most the pressure `hardness`, which is below that of the body.
     ///
     /// # Errors
     /// [`Error::OutOfRange`](crate::error::Error::OutOfRange).
@@ -182,7 +185,8 @@ impl Film {
 }
 
 impl FilmLaw {
-    /// Depth that a film of this law loses per pressure and distance slid, 1/Pa, if it loses any without growing.
+    /// Depth that a film of this law loses per pressure and distance slid, 1/Pa, if it loses any without
+    /// growing.
     pub(super) fn per_pressure(&self) -> PerPascal {
         match self {
             Self::SolidLubricant { wear } => *wear,

@@ -3,11 +3,12 @@
 use crate::grid::Field;
 use crate::units::{CubicMetre, Metre};
 
-/// Permeability of an isotropic effective medium with the gaps of these cells, m³; closed cells count with k = 0.
+/// Permeability of an isotropic effective medium with the gaps of these cells, m³; closed cells count with k
+/// = 0.
 ///
-/// Σ (k − K)/(k + K) = 0 with k = g³ over all cells. It is 0 if half of the cells or more are closed. On the mean over rough contacts it is too large,
-/// by a factor of 1.1 at 1 % contact that grows to 2 at 29 %, since narrow places of a contact are not distributed at random.
-/// Bruggeman, Ann. Phys. 416, 636 (1935).
+/// Σ (k − K)/(k + K) = 0 with k = g³ over all cells. It is 0 if half of the cells or more are closed. On the
+/// mean over rough contacts it is too large, by a factor of 1.1 at 1 % contact that grows to 2 at 29 %, since
+/// narrow places of a contact are not distributed at random. Bruggeman, Ann. Phys. 416, 636 (1935).
 pub fn effective_medium(gap: &Field) -> CubicMetre {
     let largest = gap.iter().fold(0.0_f64, |most, gap| most.max(*gap));
     let open: Vec<f64> = gap.iter().filter(|gap| **gap > 0.0).map(|gap| (gap / largest).powi(3)).collect();
@@ -15,7 +16,8 @@ pub fn effective_medium(gap: &Field) -> CubicMetre {
     if open.len() <= gap.len() - open.len() {
         return 0.0;
     }
-    // In u = ln K the sum falls from a positive to a negative value; Newton's steps, within bounds that close in.
+    // In u = ln K the sum falls from a positive to a negative value; Newton's steps, within bounds that close
+    // in.
     let least = open.iter().copied().fold(1.0, f64::min).max(f64::MIN_POSITIVE).ln();
     let (mut below, mut above) = (least - (gap.len() as f64).ln() - 1.0, 0.0);
     let mut u = 0.5 * f64::max(below, -20.0);
@@ -42,16 +44,19 @@ pub fn effective_medium(gap: &Field) -> CubicMetre {
     u.exp() * largest.powi(3)
 }
 
-/// Flow factor of rigid isotropic Gaussian roughness at the ratio of the mean gap of uncut heights to their rms height.
+/// Flow factor of rigid isotropic Gaussian roughness at the ratio of the mean gap of uncut heights to their
+/// rms height.
 ///
 /// φ = 1 − 0.9 exp(−0.56 H), for H > 0.5. Patir and Cheng, J. Lubr. Technol. 100, 12 (1978).
 pub fn patir_cheng(ratio: f64) -> f64 {
     1.0 - 0.9 * (-0.56 * ratio).exp()
 }
 
-/// Permeability of a square whose pressure falls at a single constriction as wide as it is long, m³: K = u³ with its gap u.
+/// Permeability of a square whose pressure falls at a single constriction as wide as it is long, m³: K = u³
+/// with its gap u.
 ///
-/// Persson and Yang, J. Phys.: Condens. Matter 20, 315011 (2008). Near closing it is within about a factor of 2 of the solution.
+/// Persson and Yang, J. Phys.: Condens. Matter 20, 315011 (2008). Near closing it is within about a factor of
+/// 2 of the solution.
 pub fn single_constriction(critical_gap: Metre) -> CubicMetre {
     critical_gap.powi(3)
 }

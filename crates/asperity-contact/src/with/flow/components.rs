@@ -12,8 +12,8 @@ pub(super) const AT_START: u8 = 4;
 pub(super) const AT_END: u8 = 8;
 const WINDS: [u8; 2] = [WINDS_X, WINDS_Y];
 
-/// A union of sets of cells. Each cell knows its offset from the root of its set in whole periods, so that a face that
-/// closes a loop reveals how often the loop winds around each axis.
+/// A union of sets of cells. Each cell knows its offset from the root of its set in whole periods, so that a
+/// face that closes a loop reveals how often the loop winds around each axis.
 pub(super) struct Components {
     parent: Vec<u32>,
     /// Periods between a cell and its parent.
@@ -50,8 +50,8 @@ impl Components {
         components
     }
 
-    /// Joins the set of `before` with that of `cell`, its neighbour towards growing `axis`, beyond a `seam` or not. Returns the
-    /// marks of their common set.
+    /// Joins the set of `before` with that of `cell`, its neighbour towards growing `axis`, beyond a `seam`
+    /// or not. Returns the marks of their common set.
     pub(super) fn join(&mut self, before: usize, cell: usize, axis: usize, seam: bool) -> u8 {
         let ((a, to_a), (b, to_b)) = (self.find(before), self.find(cell));
         let mut between = [to_a[0] - to_b[0], to_a[1] - to_b[1]];

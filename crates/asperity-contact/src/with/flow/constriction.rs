@@ -3,8 +3,9 @@
 use super::components::{AT_END, AT_START, Components};
 use super::faces::{Topology, before};
 
-/// Returns the cell that completes a path when open cells are added in the order of falling gap, for each of the `wanted` sets of marks
-/// that a path has; `None` if there is no such path. Of cells with the same gap the first in memory comes first.
+/// Returns the cell that completes a path when open cells are added in the order of falling gap, for each of
+/// the `wanted` sets of marks that a path has; `None` if there is no such path. Of cells with the same gap
+/// the first in memory comes first.
 ///
 /// The gap of this cell is the largest that all cells of a path reach: the critical constriction.
 pub(super) fn constrictions<const N: usize>(
@@ -49,7 +50,8 @@ pub(super) fn constrictions<const N: usize>(
     found
 }
 
-/// Returns the number of open cells in a row through a `cell`, across the gradient along `axis`. The row goes on beyond the grid if it `wraps`.
+/// Returns the number of open cells in a row through a `cell`, across the gradient along `axis`. The row goes
+/// on beyond the grid if it `wraps`.
 pub(super) fn width(gaps: &[f64], [nx, ny]: [usize; 2], cell: usize, axis: usize, wraps: bool) -> usize {
     let (count, from, step) = if axis == 0 { (ny, cell % ny, 1) } else { (nx, cell / ny, ny) };
     let is_open = |k: usize| gaps[cell - from * step + k * step] > 0.0;
@@ -62,7 +64,8 @@ pub(super) fn width(gaps: &[f64], [nx, ny]: [usize; 2], cell: usize, axis: usize
     1 + before + after
 }
 
-/// Returns a cell with its two neighbours along `axis`: the earlier cell, the later one, and whether a period lies between them.
+/// Returns a cell with its two neighbours along `axis`: the earlier cell, the later one, and whether a period
+/// lies between them.
 fn pairs(shape: [usize; 2], cell: usize, axis: usize) -> [(usize, usize, bool); 2] {
     let (previous, seam) = before(shape, cell, axis);
     let [nx, ny] = shape;

@@ -64,8 +64,9 @@ fn of_sliding(leakage: &Leakage, rows: &[FlowRecord], surroundings: &Surrounding
     })
 }
 
-/// Returns warnings about flows through contacts: the narrowest critical constriction, in cells, and the largest estimate of the error of
-/// the permeability decide. Gaps without contact have no constriction that counts.
+/// Returns warnings about flows through contacts: the narrowest critical constriction, in cells, and the
+/// largest estimate of the error of the permeability decide. Gaps without contact have no constriction that
+/// counts.
 pub fn doubts(narrowest: Option<usize>, estimate: f64) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(cells) = narrowest.filter(|cells| (1..NARROW).contains(cells)) {

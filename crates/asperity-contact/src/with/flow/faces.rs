@@ -15,7 +15,8 @@ pub enum Faces {
 choice!(Faces: "linear" => Linear, "harmonic" => Harmonic);
 
 impl Faces {
-    /// Returns the mean permeability of two neighbouring cells with the gaps `a` and `b`, 0 beside a closed cell.
+    /// Returns the mean permeability of two neighbouring cells with the gaps `a` and `b`, 0 beside a closed
+    /// cell.
     ///
     /// Both rules are written with the ratio of the gaps, so that nothing underflows before the result does.
     pub fn mean(self, a: f64, b: f64) -> f64 {
@@ -46,13 +47,15 @@ pub(super) struct Topology {
 pub(super) struct Network {
     /// Number of cells along x and y.
     pub(super) shape: [usize; 2],
-    /// Transmissibility of the face before each cell along x and along y. The face before the first cell joins it to the last one.
+    /// Transmissibility of the face before each cell along x and along y. The face before the first cell
+    /// joins it to the last one.
     pub(super) faces: [Vec<f64>; 2],
     /// Reservoirs at the ends of an axis.
     pub(super) ends: Option<EndFaces>,
 }
 
-/// Transmissibilities to the two reservoirs, one for each cell of the first and of the last row across the axis.
+/// Transmissibilities to the two reservoirs, one for each cell of the first and of the last row across the
+/// axis.
 pub(super) struct EndFaces {
     /// The axis along which the reservoirs differ.
     pub(super) axis: usize,

@@ -1,9 +1,10 @@
 //! Elimination of the cells of a network, front by front, as L D Lᵀ.
 //!
-//! Cells are eliminated as nodes of an electrical network are, by star–mesh transformation: node k leaves its neighbours joined by
-//! a_ik a_jk/d_k, with d_k the sum of its transmissibilities at that time. Transmissibilities are only added, never subtracted, so that all
-//! entries of L and D keep their full relative accuracy at any contrast, and no pivot can become negative (W. K. Grassmann,
-//! M. I. Taksar, D. P. Heyman, Oper. Res. 33, 1107 (1985)).
+//! Cells are eliminated as nodes of an electrical network are, by star–mesh transformation: node k leaves its
+//! neighbours joined by a_ik a_jk/d_k, with d_k the sum of its transmissibilities at that time.
+//! Transmissibilities are only added, never subtracted, so that all entries of L and D keep their full
+//! relative accuracy at any contrast, and no pivot can become negative (W. K. Grassmann, M. I. Taksar, D. P.
+//! Heyman, Oper. Res. 33, 1107 (1985)).
 
 use super::faces::{Network, end_cells};
 use super::ordering::{Front, Ordering};
@@ -17,13 +18,15 @@ const TILE: usize = 4;
 /// The factors of a network.
 pub(super) struct Factor {
     ordering: Ordering,
-    /// Rows of L, one for each pivot of each front: its fractions of d that lead to the later cells of the front, and the one to the reservoirs last.
+    /// Rows of L, one for each pivot of each front: its fractions of d that lead to the later cells of the
+    /// front, and the one to the reservoirs last.
     rows: Vec<Vec<f64>>,
     /// Sum of the transmissibilities of each cell when it is eliminated.
     pivots: Vec<f64>,
 }
 
-/// A front after elimination: transmissibilities between the cells of its border, and to the reservoirs in the last column.
+/// A front after elimination: transmissibilities between the cells of its border, and to the reservoirs in
+/// the last column.
 struct Remainder {
     front: usize,
     transmissibility: Vec<f64>,
@@ -66,8 +69,8 @@ impl Factor {
         Self { ordering, rows, pivots }
     }
 
-    /// Solves for the potentials under the currents `right` into each cell, in its place, both indexed by the cells of the network.
-    /// The last cell of a component without reservoirs is held at 0.
+    /// Solves for the potentials under the currents `right` into each cell, in its place, both indexed by the
+    /// cells of the network. The last cell of a component without reservoirs is held at 0.
     pub(super) fn solve<const N: usize>(&self, right: &mut [[f64; N]]) {
         let cells = &self.ordering.cells;
         let mut x: Vec<[f64; N]> = cells.iter().map(|cell| right[*cell as usize]).collect();
@@ -197,8 +200,9 @@ struct Panel {
     weighted: Vec<[f64; TILE]>,
 }
 
-/// Eliminates the first `p` of `m` cells. `upper` has their rows, `rest` those of the others from column `p` on; only what is right of
-/// the diagonal counts. The last column of both leads to the reservoirs. Rows of `upper` become fractions of their sum.
+/// Eliminates the first `p` of `m` cells. `upper` has their rows, `rest` those of the others from column `p`
+/// on; only what is right of the diagonal counts. The last column of both leads to the reservoirs. Rows of
+/// `upper` become fractions of their sum.
 fn eliminate(upper: &mut [f64], rest: &mut [f64], p: usize, m: usize, pivots: &mut [f64], panel: &mut Panel) {
     let width = m + 1;
     for first in (0..p).step_by(PANEL) {

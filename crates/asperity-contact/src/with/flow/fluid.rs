@@ -12,8 +12,8 @@ pub struct Fluid {
     pub viscosity: PascalSecond,
     /// Pressure difference ΔP ≥ 0 over the length of the gap.
     pub drop: Pascal,
-    /// Absolute pressure P₀ > 0 of an ideal gas of constant temperature at the outlet; `None` for a liquid. The mean free path of the gas
-    /// must be small compared with the gap.
+    /// Absolute pressure P₀ > 0 of an ideal gas of constant temperature at the outlet; `None` for a liquid.
+    /// The mean free path of the gas must be small compared with the gap.
     pub outlet: Option<Pascal>,
 }
 
@@ -21,7 +21,8 @@ impl Fluid {
     /// Checks the numbers.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`](crate::Error::OutOfRange) if the difference is negative, or if viscosity or outlet are not positive.
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) if the difference is negative, or if viscosity or
+    /// outlet are not positive.
     pub fn check(&self) -> Result<()> {
         let Self { viscosity, drop, outlet } = *self;
         let range = Dimension::Pressure.range();
@@ -36,7 +37,8 @@ impl Fluid {
         check_in(Dimension::Pressure, "pressure of the inlet", inlet, range.holds(inlet), expected)
     }
 
-    /// Returns the difference under which a liquid leaks as much, Pa: ΔP, and (P₁² − P₀²)/2P₀ for a gas at the pressure of the outlet.
+    /// Returns the difference under which a liquid leaks as much, Pa: ΔP, and (P₁² − P₀²)/2P₀ for a gas at
+    /// the pressure of the outlet.
     fn liquid_drop(&self) -> Pascal {
         match self.outlet {
             Some(outlet) => self.drop * (0.5 * (2.0 * outlet + self.drop) / outlet),
@@ -44,11 +46,12 @@ impl Fluid {
         }
     }
 
-    /// Returns the pressure above that of the outlet, where the pressure of a liquid has fallen to this share of its drop.
+    /// Returns the pressure above that of the outlet, where the pressure of a liquid has fallen to this share
+    /// of its drop.
     fn pressure(&self, share: f64) -> Pascal {
         match self.outlet {
-            // The square of the absolute pressure falls as the pressure of a liquid does. Under a mean gradient a cell may lie outside
-            // both pressures.
+            // The square of the absolute pressure falls as the pressure of a liquid does. Under a mean
+            // gradient a cell may lie outside both pressures.
             Some(outlet) => {
                 let inlet = outlet + self.drop;
                 (outlet * outlet + share * (inlet * inlet - outlet * outlet)).max(0.0).sqrt() - outlet
@@ -71,12 +74,14 @@ impl FlowAlong {
         Ok(self.permeability * aspect * fluid.liquid_drop() / (12.0 * fluid.viscosity))
     }
 
-    /// Computes the pressure of a fluid above that of the outlet, Pa; 0 in closed cells, and where no path leads to an end.
+    /// Computes the pressure of a fluid above that of the outlet, Pa; 0 in closed cells, and where no path
+    /// leads to an end.
     pub fn pressure_of(&self, fluid: &Fluid) -> Field {
         self.pressure.mapv(|share| fluid.pressure(share))
     }
 
-    /// Computes the flow of a fluid per width at the centres of the cells, m²/s; of a gas, at the pressure of the outlet.
+    /// Computes the flow of a fluid per width at the centres of the cells, m²/s; of a gas, at the pressure of
+    /// the outlet.
     pub fn rate_of(&self, fluid: &Fluid) -> Field {
         let scale = fluid.liquid_drop() / (12.0 * fluid.viscosity * self.length);
         let [mut rate, across] = self.flux_at_centres();

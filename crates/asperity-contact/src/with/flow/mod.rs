@@ -1,8 +1,8 @@
 //! Flow of a fluid through the gap of a contact.
 //!
-//! A thin, slow flow of constant viscosity η follows Reynolds' equation: the flux per width is `q = −(k/12η) ∇P` with the
-//! permeability `k = g³` of the local gap g, and `∇·q = 0`. The pressure P of the fluid does not deform the bodies. Cells whose gap
-//! is not positive are in contact, and closed.
+//! A thin, slow flow of constant viscosity η follows Reynolds' equation: the flux per width is
+//! `q = −(k/12η) ∇P` with the permeability `k = g³` of the local gap g, and `∇·q = 0`. The pressure P of the
+//! fluid does not deform the bodies. Cells whose gap is not positive are in contact, and closed.
 //!
 //! [`solve`] computes the permeability of the whole gap: a tensor K with the mean flux `−K ∇P/12η`, in m³.
 //!
@@ -63,7 +63,8 @@ use crate::with::views::{Answer, Curve, Line, Map};
 use crate::with::{Capability, Given, Rule, Surroundings};
 use asperity_base::choice::choice;
 
-/// Work of a flow along both axes over that of a convolution: 0.2 to 0.4 µs for each cell and log₂ of their number.
+/// Work of a flow along both axes over that of a convolution: 0.2 to 0.4 µs for each cell and log₂ of their
+/// number.
 const EFFORT: f64 = 250.0;
 
 impl Capability for Leakage {
@@ -184,8 +185,8 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Returns the settings for ends and sides that differ between a flow along x and one along y: one for both axes if they are alike, else
-    /// one for each axis that is wanted.
+    /// Returns the settings for ends and sides that differ between a flow along x and one along y: one for
+    /// both axes if they are alike, else one for each axis that is wanted.
     pub fn of_axes(ends: [Ends; 2], sides: [Sides; 2], faces: Faces, along: Along) -> Vec<Self> {
         let one = |axis: usize, along| Self { ends: ends[axis], sides: sides[axis], faces, along };
         if ends[0] == ends[1] && sides[0] == sides[1] {
@@ -216,7 +217,8 @@ pub struct Flow {
 /// All of its numbers are 0 if no path is open along this axis.
 #[derive(Debug, Clone)]
 pub struct FlowAlong {
-    /// Permeability K_xx or K_yy, m³: the mean flux per width is K ΔP/(12 η L) for a pressure drop ΔP over the length L.
+    /// Permeability K_xx or K_yy, m³: the mean flux per width is K ΔP/(12 η L) for a pressure drop ΔP over
+    /// the length L.
     pub permeability: CubicMetre,
     /// Gap between parallel plates of this permeability, ∛K, m.
     pub hydraulic_gap: Metre,
@@ -234,10 +236,11 @@ pub struct FlowAlong {
     pub trapped_volume: CubicMetre,
     /// Bounds of the permeability with the other [`Faces`], m³, by the principles of Thomson and Dirichlet.
     pub other_faces: [CubicMetre; 2],
-    /// Estimate of the relative error of the permeability: its relative difference to the geometric mean of the bounds for the other
-    /// faces.
+    /// Estimate of the relative error of the permeability: its relative difference to the geometric mean of
+    /// the bounds for the other faces.
     pub estimate: f64,
-    /// Largest relative difference of the flux through a section across the axis from the mean of all sections.
+    /// Largest relative difference of the flux through a section across the axis from the mean of all
+    /// sections.
     pub residual: f64,
     /// Relative difference of the work Σ q²/T that is dissipated in all faces from that of the mean flux.
     pub dissipation: f64,
@@ -245,11 +248,13 @@ pub struct FlowAlong {
     pub imbalance: f64,
     /// Solutions for what was left of the imbalance.
     pub rounds: usize,
-    /// Pressure at the centres of the cells over the pressure drop: 1 at the start of the axis, 0 at its end. 0 in closed cells, and
-    /// where no path leads to an end. For an ideal gas it is the square of the pressure that falls like this.
+    /// Pressure at the centres of the cells over the pressure drop: 1 at the start of the axis, 0 at its end.
+    /// 0 in closed cells, and where no path leads to an end. For an ideal gas it is the square of the
+    /// pressure that falls like this.
     pub pressure: Field,
-    /// Flux per width through the faces across x, `[nx + 1, ny]`, and across y, `[nx, ny + 1]`, over the mean gradient and 1/12η, m³. Its
-    /// mean is the permeability. The first and the last face of a periodic axis are the same.
+    /// Flux per width through the faces across x, `[nx + 1, ny]`, and across y, `[nx, ny + 1]`, over the mean
+    /// gradient and 1/12η, m³. Its mean is the permeability. The first and the last face of a periodic axis
+    /// are the same.
     pub flux: [Field; 2],
     /// Whether a cell is part of a path along the axis.
     pub flowing: Array2<bool>,
@@ -260,7 +265,8 @@ pub struct FlowAlong {
 }
 
 impl FlowAlong {
-    /// Computes the flux per width at the centres of the cells, m³ as [`Self::flux`]: `[along x, along y]`, means of two faces.
+    /// Computes the flux per width at the centres of the cells, m³ as [`Self::flux`]: `[along x, along y]`,
+    /// means of two faces.
     pub fn flux_at_centres(&self) -> [Field; 2] {
         let shape = self.pressure.dim();
         let [x, y] = &self.flux;
@@ -272,7 +278,8 @@ impl FlowAlong {
 }
 
 impl Flow {
-    /// Returns the permeability tensor, m³; `None` unless both directions are solved with periodic ends and sides.
+    /// Returns the permeability tensor, m³; `None` unless both directions are solved with periodic ends and
+    /// sides.
     pub fn permeability(&self) -> Option<[[CubicMetre; 2]; 2]> {
         let [x, y] = self.along.each_ref().map(|along| along.as_ref().map(|along| along.permeability));
         let (x, y, xy) = (x?, y?, self.coupling?);
@@ -294,8 +301,8 @@ pub fn memory(shape: [usize; 2]) -> f64 {
 
 /// Solves for the flow through a `gap`, in metres. Cells whose gap is not positive are closed.
 ///
-/// The linear system is solved directly, so that any contrast of the gaps is permitted. Gaps below 10⁻²⁰ of the largest count as closed too.
-/// The answer does not depend on the number of threads.
+/// The linear system is solved directly, so that any contrast of the gaps is permitted. Gaps below 10⁻²⁰ of
+/// the largest count as closed too. The answer does not depend on the number of threads.
 ///
 /// # Errors
 /// - [`Error::GridMismatch`] if the gap has another shape than the grid.
@@ -363,7 +370,8 @@ pub fn solve(gap: &Field, grid: &Grid, settings: &Settings) -> Result<Flow> {
     })
 }
 
-/// Gaps over the largest one, below which a cell counts as closed: transmissibilities reach 10⁻⁶⁰ of the largest.
+/// Gaps over the largest one, below which a cell counts as closed: transmissibilities reach 10⁻⁶⁰ of the
+/// largest.
 const LEAST: f64 = 1e-20;
 
 /// Gaps over the largest one.
@@ -721,7 +729,8 @@ mod tests {
             let along = flow.along[0].as_ref().unwrap();
             assert!(along.residual < 1e-12 && along.dissipation < 1e-12, "{ends:?} {along:?}");
             assert_eq!(along.critical_gap, 1e-6);
-            // The halls resist less by twelve orders of magnitude; a reservoir is half a cell from the first pinhole.
+            // The halls resist less by twelve orders of magnitude; a reservoir is half a cell from the first
+            // pinhole.
             let faces = [(0, 1), (23, 24), (24, 25), (47, 0)];
             let resistance = faces.map(|(i, k)| Faces::Linear.mean(gap[[i, 17]], gap[[k, 17]]).recip());
             let series = match ends {

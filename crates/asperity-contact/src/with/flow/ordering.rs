@@ -31,8 +31,9 @@ pub(super) struct Ordering {
 impl Ordering {
     /// Orders the cells of the network that are `wanted`.
     ///
-    /// A part is cut in two by a row of cells, which is eliminated after both. Near the middle the row with the fewest wanted cells
-    /// is taken: where bodies touch, cuts are short. A periodic axis is first cut at the row with the fewest cells of all.
+    /// A part is cut in two by a row of cells, which is eliminated after both. Near the middle the row with
+    /// the fewest wanted cells is taken: where bodies touch, cuts are short. A periodic axis is first cut at
+    /// the row with the fewest cells of all.
     pub(super) fn new(network: &Network, wanted: &[bool], periodic: [bool; 2]) -> Self {
         let shape = network.shape;
         let count =

@@ -1,8 +1,9 @@
 //! Pressures as the sum of two doubles, and the fluxes that follow from them.
 //!
-//! Where channels are wide, the pressure differs little from cell to cell, and its round-off times a large transmissibility is more than what
-//! flows through the next constriction. So the pressure is P₁ + P₂. P₁ is a multiple of a power of 2, so that the drops between cells
-//! follow from it without round-off. The imbalance of the fluxes is summed cell by cell, and P₂ solves for it.
+//! Where channels are wide, the pressure differs little from cell to cell, and its round-off times a large
+//! transmissibility is more than what flows through the next constriction. So the pressure is P₁ + P₂. P₁ is
+//! a multiple of a power of 2, so that the drops between cells follow from it without round-off. The
+//! imbalance of the fluxes is summed cell by cell, and P₂ solves for it.
 
 use super::faces::{Network, end_cells};
 use super::factor::Factor;
@@ -16,7 +17,8 @@ const ENOUGH: f64 = 4e-15;
 /// Difference between sections above which rounds go on, though one of them may not have helped.
 const TOO_MUCH: f64 = 1e-11;
 
-/// Flow along an axis, for a drop of 1 between neighbouring cells of a periodic axis, or of 1 between reservoirs.
+/// Flow along an axis, for a drop of 1 between neighbouring cells of a periodic axis, or of 1 between
+/// reservoirs.
 pub(super) struct Solved {
     /// The axis along which the pressure falls.
     pub(super) axis: usize,
@@ -46,7 +48,8 @@ struct State<'a> {
     best: Option<Solved>,
 }
 
-/// Solves for the flow along N axes, of the cells that flow along each of them. The factor has all of these cells.
+/// Solves for the flow along N axes, of the cells that flow along each of them. The factor has all of these
+/// cells.
 pub(super) fn solve<const N: usize>(
     network: &Network,
     factor: &Factor,
@@ -169,8 +172,8 @@ impl State<'_> {
 impl Solved {
     /// Returns a lower and an upper bound for the permeability of the `other` network over that of this one.
     ///
-    /// The fluxes found are a trial field of Thomson's principle for the other network, which bounds it from below, and the pressure found is
-    /// one of Dirichlet's principle, which bounds it from above.
+    /// The fluxes found are a trial field of Thomson's principle for the other network, which bounds it from
+    /// below, and the pressure found is one of Dirichlet's principle, which bounds it from above.
     pub(super) fn bounds(&self, network: &Network, other: &Network) -> [f64; 2] {
         let (mut work, mut least, mut most) = (0.0, 0.0, 0.0);
         let mut add = |flux: &[f64], own: &[f64], other: &[f64]| {

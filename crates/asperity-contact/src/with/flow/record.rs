@@ -9,15 +9,17 @@ use crate::with::Row;
 use asperity_base::record::{Column, Record, columns};
 
 columns! {
-    /// The flow through the gap of a contact under a gradient of pressure along one axis, a row of `flow.csv`; in `summary.json` of the
-    /// last contact, or of a motion the means over the positions of each pass.
+    /// The flow through the gap of a contact under a gradient of pressure along one axis, a row of
+    /// `flow.csv`; in `summary.json` of the last contact, or of a motion the means over the positions of each
+    /// pass.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct FlowRecord {
         /// Pass of a motion, from 1; left out of a static contact.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub pass: Option<usize>,
-        /// Position in the pass, increment, point (each from 1) or update (from 0); unknown in the mean over a pass.
+        /// Position in the pass, increment, point (each from 1) or update (from 0); unknown in the mean over
+        /// a pass.
         pub step: Option<usize>,
         /// Direction of the gradient of pressure: `x` or `y`.
         pub along: Axis,
@@ -31,7 +33,8 @@ columns! {
         pub contact_area: SquareMetre,
         /// Mean gap over all cells, 0 in contact.
         pub mean_gap: Metre,
-        /// Permeability K: the mean flux per width is K over 12 times the viscosity, times the mean gradient of pressure.
+        /// Permeability K: the mean flux per width is K over 12 times the viscosity, times the mean gradient
+        /// of pressure.
         pub permeability: CubicMetre,
         /// Permeability that gives the mean flux across the gradient; unknown where it is not computed.
         pub permeability_across: Option<CubicMetre>,
@@ -39,7 +42,8 @@ columns! {
         pub hydraulic_gap: Metre,
         /// Permeability over the cube of the mean gap.
         pub flow_factor: f64,
-        /// Volume that leaks in a unit of time under the pressure difference; of a gas at the pressure of the outlet.
+        /// Volume that leaks in a unit of time under the pressure difference; of a gas at the pressure of the
+        /// outlet.
         pub leakage: CubicMetrePerSecond,
         /// Critical constriction: the largest gap that all cells of some path reach; 0 without a path.
         pub critical_gap: Metre,
@@ -91,8 +95,9 @@ impl FlowRecord {
         self.critical_x.zip(self.critical_y).map(|(x, y)| [x, y])
     }
 
-    /// Returns the means over the positions of each pass, for each direction. The fluxes are those of a common difference of pressure; the
-    /// constriction has no mean place, and the estimate and the residual are the largest ones.
+    /// Returns the means over the positions of each pass, for each direction. The fluxes are those of a
+    /// common difference of pressure; the constriction has no mean place, and the estimate and the residual
+    /// are the largest ones.
     pub fn means(rows: &[Self]) -> Vec<Self> {
         let of_passes = rows.chunk_by(|one, other| one.pass == other.pass);
         let along = |rows: &[Self], axis| -> Vec<Self> {

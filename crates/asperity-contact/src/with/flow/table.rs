@@ -24,8 +24,8 @@ pub struct Leakage {
     /// Direction of the pressure gradient.
     #[key(choice, default = Along::Both, example = "\"x\"")]
     pub along: Along,
-    /// `"periodic"`: the gap repeats itself, under a mean gradient of pressure; `"reservoirs"`: the fluid has two pressures at the ends of the
-    /// grid, and the sides are closed along a free axis.
+    /// `"periodic"`: the gap repeats itself, under a mean gradient of pressure; `"reservoirs"`: the fluid has
+    /// two pressures at the ends of the grid, and the sides are closed along a free axis.
     #[key(
         choice,
         absent = "`\"periodic\"` along periodic axes, `\"reservoirs\"` along free ones",
@@ -50,13 +50,13 @@ pub struct Leakage {
     #[key(quantity = Density, range = AboveZero, absent = "unknown", example = "\"870 kg/m3\"", exists = exists::DENSITY)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
-    /// Width of the face of a seal along the flow, for which the leakage of a metre of seal is told. This leakage is inversely proportional to
-    /// the width.
+    /// Width of the face of a seal along the flow, for which the leakage of a metre of seal is told. This
+    /// leakage is inversely proportional to the width.
     #[key(quantity = Length, range = AboveZero, absent = "the length of the map along the flow", example = "\"2 mm\"", exists = FACE, beside = [NARROW])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<Metre>,
-    /// Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed; 0: once a pass, where the left
-    /// edges are flush, or for the last contact alone.
+    /// Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed;
+    /// 0: once a pass, where the left edges are flush, or for the last contact alone.
     #[key(count = 0, default = 1, example = "4")]
     pub every: usize,
 }

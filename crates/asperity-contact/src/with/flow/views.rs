@@ -175,8 +175,8 @@ fn of_pass<'a>(axis: Axis, unit: &Multiple, rows: impl Iterator<Item = &'a FlowR
     })
 }
 
-/// Describes a leakage for a metre of a seal, in the units of the trade: ml/h of a liquid, with its mass if the density is known; mbar l/s of
-/// a gas. `None` if the width of the strip is not known.
+/// Describes a leakage for a metre of a seal, in the units of the trade: ml/h of a liquid, with its mass if
+/// the density is known; mbar l/s of a gas. `None` if the width of the strip is not known.
 fn per_metre(leakage: &Leakage, row: &FlowRecord) -> Option<String> {
     let strip = row.load / (row.mean_pressure * row.length);
     let width = leakage.width.unwrap_or(row.length);

@@ -22,7 +22,8 @@ pub struct Yielding {
     #[key(part)]
     #[serde(flatten)]
     pub yields: YieldKey,
-    /// Increase of the yield stress per plastic strain, E·Eₜ/(E − Eₜ) for a tangent modulus Eₜ; with `yield_stress`.
+    /// Increase of the yield stress per plastic strain, E·Eₜ/(E − Eₜ) for a tangent modulus Eₜ; with
+    /// `yield_stress`.
     ///
     /// 0 beside a curve, which has the hardening.
     #[key(
@@ -78,8 +79,8 @@ pub enum YieldKey {
 #[table("plasticity")]
 #[non_exhaustive]
 pub struct PlasticRegion {
-    /// Depth of the volume that may deform plastically, from one cell to the smaller side of the grid; 2.5 radii of the largest spot are
-    /// enough.
+    /// Depth of the volume that may deform plastically, from one cell to the smaller side of the grid; 2.5
+    /// radii of the largest spot are enough.
     #[key(quantity = Length, range = AboveZero, example = "\"20 um\"", exists = exists::LENGTH)]
     pub depth: Metre,
     /// Number of layers.
@@ -94,7 +95,8 @@ pub struct PlasticRegion {
         example = "1.2"
     )]
     pub growth: f64,
-    /// Static: equal steps of the loading in \[contact\], of each \[\[history\]\] stage without its own number, and of the unloading.
+    /// Static: equal steps of the loading in \[contact\], of each \[\[history\]\] stage without its own
+    /// number, and of the unloading.
     ///
     /// `None` with friction, which sets them, and in a motion.
     #[key(count = 1, written = "16", example = "32")]

@@ -51,8 +51,9 @@ pub struct Viscoelasticity {
     )]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub times: Vec<Second>,
-    /// Master curve instead of `moduli` and `times`: a text whose titles name frequency, storage and loss modulus (or tan δ) with their units,
-    /// such as `frequency_Hz, storage_MPa, loss_MPa`, or the export of an instrument.
+    /// Master curve instead of `moduli` and `times`: a text whose titles name frequency, storage and loss
+    /// modulus (or tan δ) with their units, such as `frequency_Hz, storage_MPa, loss_MPa`, or the export of
+    /// an instrument.
     #[key(special = path, form = "file name, relative to the case file", absent = "none", example = "\"master.csv\"")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
@@ -64,8 +65,8 @@ pub struct Viscoelasticity {
     #[key(number = "a number", range = AboveZero, default = 1.0, example = "0.1")]
     #[serde(skip_serializing_if = "is_one")]
     pub shift: f64,
-    /// Constant c₁ of the shift of Williams, Landel and Ferry, log₁₀ a_T = −c₁(T − Tᵣ)/(c₂ + T − Tᵣ), at the temperature `bulk` of the body in
-    /// \[temperature\].
+    /// Constant c₁ of the shift of Williams, Landel and Ferry, log₁₀ a_T = −c₁(T − Tᵣ)/(c₂ + T − Tᵣ), at the
+    /// temperature `bulk` of the body in \[temperature\].
     #[key(number = "a number", range = AboveZero, absent = "no such shift", example = "8.9")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wlf_c1: Option<f64>,
@@ -158,7 +159,8 @@ impl Viscoelasticity {
         self.wlf_c1.is_some()
     }
 
-    /// Returns how far a `temperature` of the body is above Tᵣ − c₂, where the times of Williams, Landel and Ferry become infinite.
+    /// Returns how far a `temperature` of the body is above Tᵣ − c₂, where the times of Williams, Landel and
+    /// Ferry become infinite.
     pub(super) fn above_infinite_times(&self, temperature: Option<Kelvin>) -> Option<Kelvin> {
         Some(temperature? - self.wlf_at? + self.wlf_c2?)
     }
@@ -183,7 +185,8 @@ impl Viscoelasticity {
         Err(Error::OutOfRange { quantity: "bulk", value, dimension, expected: expected.into() })
     }
 
-    /// Returns the relaxation of a body with this `relaxed` modulus at a `temperature`, and the fit if it has a master `curve`.
+    /// Returns the relaxation of a body with this `relaxed` modulus at a `temperature`, and the fit if it has
+    /// a master `curve`.
     ///
     /// # Errors
     /// The errors of [`Self::shift_factor`], [`Relaxation::new`] and [`fit_master_curve`].

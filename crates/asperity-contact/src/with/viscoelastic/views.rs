@@ -92,8 +92,8 @@ pub fn in_time(increments: &[IncrementRecord]) -> Option<Answer> {
     })
 }
 
-/// Temperatures above that of infinite times at which the shift of Williams, Landel and Ferry usually holds: from the glass transition to 100 K
-/// above it, with a margin (Ferry, Viscoelastic Properties of Polymers).
+/// Temperatures above that of infinite times at which the shift of Williams, Landel and Ferry usually holds:
+/// from the glass transition to 100 K above it, with a margin (Ferry, Viscoelastic Properties of Polymers).
 const WLF: [f64; 2] = [40.0, 200.0];
 
 impl Viscoelasticity {
@@ -112,15 +112,17 @@ impl Viscoelasticity {
 
 /// Share of the compliance from which on a term matters.
 const WEIGHT: f64 = 0.05;
-/// Ratio of a modulus to what is softer from which on its relaxation must be resolved, and the length that resolves it, in cells.
+/// Ratio of a modulus to what is softer from which on its relaxation must be resolved, and the length that
+/// resolves it, in cells.
 const STIFF: f64 = 30.0;
 const RESOLVED: f64 = 0.4;
 /// Density of rubber, kg/m³, and the share of the speed of its shear waves from which on its inertia matters.
 const DENSITY: f64 = 1000.0;
 const SLOW: f64 = 0.3;
 
-/// Returns reasons not to trust the sliding of bodies with this `creep` compliance of the body that the contact moves over, at the `speeds`,
-/// on a grid with this extent along x. The contact is resolved in steps of this length: cells, or the distance between two positions.
+/// Returns reasons not to trust the sliding of bodies with this `creep` compliance of the body that the
+/// contact moves over, at the `speeds`, on a grid with this extent along x. The contact is resolved in steps
+/// of this length: cells, or the distance between two positions.
 pub fn doubts(creep: &Creep, boundary: Boundary, step: Metre, extent: Metre, speeds: &[f64]) -> Vec<String> {
     if creep.terms.is_empty() {
         return vec![

@@ -86,8 +86,8 @@ impl BodyLaw for WearCoefficient {
 
 /// Wear of both bodies, reduced by their films.
 ///
-/// At frozen contact, a pass removes the depth k Σ p |Δs| from a cell. In an extrapolation over many passes, k is its mean
-/// while the film grows or is removed at the rates of the computed pass.
+/// At frozen contact, a pass removes the depth k Σ p |Δs| from a cell. In an extrapolation over many passes,
+/// k is its mean while the film grows or is removed at the rates of the computed pass.
 #[derive(Debug, Clone)]
 pub struct Wear {
     coefficients: [Option<WearCoefficient>; 2],
@@ -96,7 +96,8 @@ pub struct Wear {
 }
 
 impl Wear {
-    /// Creates the wear of the lower and of the upper body, with their `films`; `None` for a body that does not wear.
+    /// Creates the wear of the lower and of the upper body, with their `films`; `None` for a body that does
+    /// not wear.
     ///
     /// # Errors
     /// [`Error::OutOfRange`]; [`Error::Unsupported`] for a coefficient under a film on a body without film.
@@ -223,7 +224,8 @@ impl Law for Wear {
     }
 }
 
-/// Evaluates the depths worn since the beginning of the lower and of the upper body; 0 for a body that does not store them.
+/// Evaluates the depths worn since the beginning of the lower and of the upper body; 0 for a body that does
+/// not store them.
 fn of_bodies(pair: &Pair, value: impl Fn(&Field) -> f64) -> [f64; 2] {
     [&pair.lower, &pair.upper].map(|body: &Body| body.state.get(WEAR).map_or(0.0, |worn| value(&worn.values)))
 }

@@ -17,8 +17,9 @@ pub struct WearCoefficient {
     #[key(part)]
     #[serde(flatten)]
     pub rate: WearRate,
-    /// Coefficient under the thickest film, in the unit of `coefficient` or `energy`, also with `dimensionless`, at most the coefficient of
-    /// the bare body; it decreases linearly with the thickness; the body needs a film.
+    /// Coefficient under the thickest film, in the unit of `coefficient` or `energy`, also with
+    /// `dimensionless`, at most the coefficient of the bare body; it decreases linearly with the thickness;
+    /// the body needs a film.
     #[key(
         quantity = VolumePerWork,
         range = AboveZero,

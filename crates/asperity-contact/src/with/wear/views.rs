@@ -86,7 +86,8 @@ pub(super) fn after_sliding(updates: &[UpdateRecord]) -> Option<Answer> {
     worn_off(worn, deepest, last.distance, steps.sum())
 }
 
-/// Returns what wear has taken off the bodies over a sliding `distance`, in which the load has done the `work` ∫ W ds.
+/// Returns what wear has taken off the bodies over a sliding `distance`, in which the load has done the
+/// `work` ∫ W ds.
 fn worn_off(worn: CubicMetre, deepest: Metre, distance: Metre, work: Joule) -> Option<Answer> {
     let value = format(worn, Dimension::Volume);
     let deep = if deepest > 0.0 {

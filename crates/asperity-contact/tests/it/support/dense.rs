@@ -34,7 +34,8 @@ fn eliminated(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
     b
 }
 
-/// The pressures p ≥ 0 with h + Cp − δ ≥ 0, by Murty's pivots of least index, which end for every matrix of positive principal minors.
+/// The pressures p ≥ 0 with h + Cp − δ ≥ 0, by Murty's pivots of least index, which end for every matrix of
+/// positive principal minors.
 pub(crate) fn dense(c: &[Vec<f64>], gap: &[f64], approach: f64) -> Vec<f64> {
     let n = gap.len();
     let mut touches = vec![false; n];
@@ -59,7 +60,8 @@ pub(crate) fn dense(c: &[Vec<f64>], gap: &[f64], approach: f64) -> Vec<f64> {
     panic!("no end");
 }
 
-/// Mean of the compliance J(t − s) over the times s from `begin` to `end`, or its value where these are one time.
+/// Mean of the compliance J(t − s) over the times s from `begin` to `end`, or its value where these are one
+/// time.
 pub(crate) fn mean_compliance(creep: &Creep, t: f64, begin: f64, end: f64) -> f64 {
     let term = |term: &CreepTerm| {
         let e = |s: f64| ((s - t) / term.time).exp();

@@ -1,8 +1,8 @@
-//! Conjugate gradients on a predicted active set. The projection onto the bounds is deferred and combined with a
-//! preconditioned step, so that every convolution improves the solution.
+//! Conjugate gradients on a predicted active set. The projection onto the bounds is deferred and combined
+//! with a preconditioned step, so that every convolution improves the solution.
 //!
-//! The method solves one contact, or many contacts that share an approach and carry a load together. Their influence
-//! matrix is block-diagonal, and the blocks exchange only a few sums.
+//! The method solves one contact, or many contacts that share an approach and carry a load together. Their
+//! influence matrix is block-diagonal, and the blocks exchange only a few sums.
 
 mod block;
 
@@ -24,8 +24,8 @@ use asperity_base::watch::check_stop;
 
 use block::{Block, ResidualNorms};
 
-/// Initial damping of the preconditioned step that is combined with the step to the bounds. Later it is a running
-/// mean of the step lengths of conjugate gradients.
+/// Initial damping of the preconditioned step that is combined with the step to the bounds. Later it is a
+/// running mean of the step lengths of conjugate gradients.
 const FIRST_DAMPING: f64 = 0.8;
 /// Weights of the mean so far and of a new step length in the running mean of the damping.
 const DAMPING_WEIGHTS: [f64; 2] = [0.7, 0.3];
@@ -64,8 +64,8 @@ pub(super) enum Stage {
 /// Contacts that are solved with near copies of their operators, from a cold start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum NearCopies {
-    /// Large ones with a free axis. On other grids a convolution takes no more than a third of a step, and the near
-    /// copy gains nothing.
+    /// Large ones with a free axis. On other grids a convolution takes no more than a third of a step, and
+    /// the near copy gains nothing.
     Large,
     /// All whose operators have a near copy.
     #[cfg(test)]
@@ -99,15 +99,15 @@ pub(super) struct Answer {
     pub(super) stats: Stats,
 }
 
-/// Solves from the `start` of each contact to the `tolerance` of η for a state. Without a start it uses a uniform
-/// pressure, or the interference under approach control.
+/// Solves from the `start` of each contact to the `tolerance` of η for a state. Without a start it uses a
+/// uniform pressure, or the interference under approach control.
 ///
-/// The sets are predicted as in a primal–dual active set method (Hintermüller, Ito and Kunisch, SIAM J. Optim. 13,
-/// 865 (2003)). Its complementarity parameter is the compliance of a cell, initially `compliance_factor` times its
-/// self-influence.
+/// The sets are predicted as in a primal–dual active set method (Hintermüller, Ito and Kunisch, SIAM J.
+/// Optim. 13, 865 (2003)). Its complementarity parameter is the compliance of a cell, initially
+/// `compliance_factor` times its self-influence.
 ///
-/// If near copies of the operators serve, search directions are convolved with these, and the operators only correct
-/// the displacement when the residual has fallen; see [`NearCopies`].
+/// If near copies of the operators serve, search directions are convolved with these, and the operators only
+/// correct the displacement when the residual has fallen; see [`NearCopies`].
 pub(super) fn solve(
     sites: &[&dyn Site],
     settings: &Settings,
@@ -257,7 +257,8 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// Performs a task on each block. Returns the results, merged in the order of the blocks and of the ranks.
+    /// Performs a task on each block. Returns the results, merged in the order of the blocks and of the
+    /// ranks.
     fn merged<M: Merged + Send>(&mut self, task: impl Fn(&mut Block<'a>) -> M + Sync) -> M {
         let part = match self.blocks.as_mut_slice() {
             [block] => task(block),
@@ -283,8 +284,8 @@ impl<'a> Iteration<'a> {
         self.blocks.iter().map(Block::rounding).fold(0.0, f64::max)
     }
 
-    /// Returns the mean over the free cells of values with this sum. Under load control a direction without this
-    /// mean preserves the load. Returns 0 under approach control.
+    /// Returns the mean over the free cells of values with this sum. Under load control a direction without
+    /// this mean preserves the load. Returns 0 under approach control.
     fn mean(&self, sum: f64) -> f64 {
         match self.settings.control {
             Control::Load(_) => sum / self.free_cells,
@@ -327,7 +328,8 @@ impl<'a> Iteration<'a> {
         self.settings.carries_the_load(sum)
     }
 
-    /// Iterates with the near copies, and corrects the displacement by the operators when the residual has fallen.
+    /// Iterates with the near copies, and corrects the displacement by the operators when the residual has
+    /// fallen.
     fn solve_near(
         &mut self,
         mut state: Residual,
@@ -397,8 +399,8 @@ impl<'a> Iteration<'a> {
         self.each(Block::leave_near_copy);
     }
 
-    /// Moves to the nearest feasible pressure, with one convolution. It is in single precision if its error is
-    /// below `max_rounding`. With near copies these compute the displacement.
+    /// Moves to the nearest feasible pressure, with one convolution. It is in single precision if its error
+    /// is below `max_rounding`. With near copies these compute the displacement.
     fn become_feasible(&mut self, max_rounding: Metre) {
         let settings = self.settings;
         make_feasible(self, &settings);
@@ -414,8 +416,8 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// Performs an outer step: predicts the sets, moves the other cells to their bounds, and solves for the free
-    /// cells by conjugate gradients. Returns the norms, unless the pressure has changed since.
+    /// Performs an outer step: predicts the sets, moves the other cells to their bounds, and solves for the
+    /// free cells by conjugate gradients. Returns the norms, unless the pressure has changed since.
     fn outer_step(&mut self, state: Residual, wanted: f64) -> Option<ResidualNorms> {
         self.predict_sets(state.approach);
         if self.free_cells == 0.0 {
@@ -458,8 +460,9 @@ impl<'a> Iteration<'a> {
         self.become_feasible(0.0);
     }
 
-    /// Predicts the sets by one diagonal Newton step: a cell whose proposed pressure is beyond a bound belongs to
-    /// it. Under load control the approach is chosen so that the clipped proposed pressures carry the load.
+    /// Predicts the sets by one diagonal Newton step: a cell whose proposed pressure is beyond a bound
+    /// belongs to it. Under load control the approach is chosen so that the clipped proposed pressures carry
+    /// the load.
     fn predict_sets(&mut self, approach: Metre) {
         let stiffness = 1.0 / (self.caution.compliance_factor * self.settings.self_influence);
         let settings = self.settings;
@@ -480,7 +483,8 @@ impl<'a> Iteration<'a> {
 
     /// Moves the cells predicted at a bound to it, and the free cells by one preconditioned step, in one
     /// convolution. The convolution is of the step, or of the total pressure in double precision if the error
-    /// bound exceeds `max_rounding`. Returns the multiple of the response, 1 or 0, that the displacement lacks.
+    /// bound exceeds `max_rounding`. Returns the multiple of the response, 1 or 0, that the displacement
+    /// lacks.
     fn step_to_bounds(&mut self, approach: Metre, max_rounding: Metre) -> f64 {
         let [moving, to_bounds] = self.merged(Block::direct_to_bounds);
         if moving == 0.0 {
@@ -508,8 +512,8 @@ impl<'a> Iteration<'a> {
         1.0
     }
 
-    /// Restores the load exactly. The rounding of the directions causes errors of the same order in the load as
-    /// in the displacement.
+    /// Restores the load exactly. The rounding of the directions causes errors of the same order in the load
+    /// as in the displacement.
     fn restore_the_sum(&mut self) {
         let Some(wanted) = self.settings.pressure_sum() else { return };
         let [sum] = self.sum(|p, _| [p]);
@@ -517,8 +521,9 @@ impl<'a> Iteration<'a> {
         self.each(|block| block.add_to_free_cells(pressure));
     }
 
-    /// Performs preconditioned conjugate gradients on the free cells until the violation of the bounds exceeds
-    /// the residual, after adding a `share` of the last response to the displacement. Returns both norms.
+    /// Performs preconditioned conjugate gradients on the free cells until the violation of the bounds
+    /// exceeds the residual, after adding a `share` of the last response to the displacement. Returns both
+    /// norms.
     fn conjugate_gradients(&mut self, state: Residual, wanted: f64, share: f64) -> ResidualNorms {
         let [sum] = self.merged(|block| [block.reset_direction(share)]);
         let mut datum = match self.settings.control {
@@ -562,9 +567,9 @@ impl<'a> Iteration<'a> {
         ResidualNorms { residual: sums.residual.sqrt(), violation: sums.violation.sqrt(), ..sums }
     }
 
-    /// Safeguards the iteration against cycles of the predicted sets. After some outer steps without progress it
-    /// returns to a feasible pressure, from which an exact line search lowers the energy. Returns whether it did
-    /// so.
+    /// Safeguards the iteration against cycles of the predicted sets. After some outer steps without progress
+    /// it returns to a feasible pressure, from which an exact line search lowers the energy. Returns whether
+    /// it did so.
     fn safeguard(&mut self, norm: f64, approach: Metre) -> bool {
         if !self.caution.demands_a_search(norm) {
             return false;

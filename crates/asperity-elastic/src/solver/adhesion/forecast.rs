@@ -5,8 +5,8 @@ use std::mem;
 use crate::grid::Field;
 use crate::units::Metre;
 
-/// Largest part of the way to the equilibrium that is not along the last change of the lagged bounds. The rounds converge to the stable
-/// equilibrium that the bodies reach, and one elsewhere is another one.
+/// Largest part of the way to the equilibrium that is not along the last change of the lagged bounds. The
+/// rounds converge to the stable equilibrium that the bodies reach, and one elsewhere is another one.
 const MAX_DEVIATION: f64 = 0.3;
 /// Largest length of this way, as a multiple of the sum of the changes that the rounds would still cause.
 const MAX_LENGTH: f64 = 3.0;
@@ -43,8 +43,8 @@ impl Forecast {
         times.abs() > MAX_LENGTH * self.share
     }
 
-    /// Returns the part of the distance to another gap that is not along the last change, as a fraction of that distance, and how
-    /// many times the last change it is away.
+    /// Returns the part of the distance to another gap that is not along the last change, as a fraction of
+    /// that distance, and how many times the last change it is away.
     fn way_to(&self, gap: &Field) -> [f64; 2] {
         let way = gap - &self.gap;
         let [length, along] = [(&way * &way).sum(), (&way * &self.change).sum()];
@@ -59,8 +59,9 @@ impl Changes {
         Self { gap: None, change: 0.0, left: 0.0 }
     }
 
-    /// Takes the gap after a round. Returns a forecast if the distance left has decreased. Near an equilibrium that has just vanished
-    /// the changes decrease, too, but ever more slowly, so that the distance grows from round to round.
+    /// Takes the gap after a round. Returns a forecast if the distance left has decreased. Near an
+    /// equilibrium that has just vanished the changes decrease, too, but ever more slowly, so that the
+    /// distance grows from round to round.
     pub(super) fn after(&mut self, gap: &Field) -> Option<Forecast> {
         let before = self.gap.replace(gap.clone())?;
         let change = largest_difference(&before, gap);

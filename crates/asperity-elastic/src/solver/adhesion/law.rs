@@ -12,7 +12,8 @@ pub enum Potential {
     /// v = −w e^(−g/ϱ): smooth, and the default.
     #[default]
     Exponential,
-    /// v = −w (1 − g/ϱ) up to the range ϱ, and 0 beyond: a constant tension, for comparison with closed forms.
+    /// v = −w (1 − g/ϱ) up to the range ϱ, and 0 beyond: a constant tension, for comparison with closed
+    /// forms.
     Dugdale,
 }
 
@@ -24,8 +25,8 @@ pub enum History {
     /// From afar: positions are independent.
     #[default]
     None,
-    /// From the position before, with its displacement: the bodies keep what adheres, and jumps lose energy. Each pass begins from
-    /// afar.
+    /// From the position before, with its displacement: the bodies keep what adheres, and jumps lose energy.
+    /// Each pass begins from afar.
     Path,
 }
 
@@ -33,8 +34,9 @@ choice!(History: "none" => None, "path" => Path);
 
 /// Attraction between two surfaces: the potential energy v(g) of an area at the gap g ≥ 0, with v(0) = −w.
 ///
-/// The tension σ = dv/dg ≥ 0 pulls the surfaces together. It is largest in contact, σ(0) = w/ϱ. Both potentials are concave, so
-/// several equilibria may exist under one load. Maugis, J. Colloid Interface Sci. 150, 243 (1992).
+/// The tension σ = dv/dg ≥ 0 pulls the surfaces together. It is largest in contact, σ(0) = w/ϱ. Both
+/// potentials are concave, so several equilibria may exist under one load. Maugis, J. Colloid Interface Sci.
+/// 150, 243 (1992).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Adhesion {
@@ -73,8 +75,8 @@ impl Adhesion {
         Self { history, ..self }
     }
 
-    /// Returns the shortest range that a grid resolves, ϱ = √(1.5 π w Δ/E*): the process zone then has 1.5 cells of the
-    /// `pitch`, the larger one of the grid.
+    /// Returns the shortest range that a grid resolves, ϱ = √(1.5 π w Δ/E*): the process zone then has 1.5
+    /// cells of the `pitch`, the larger one of the grid.
     pub fn grid_range(work: JoulePerSquareMetre, modulus: Pascal, pitch: Metre) -> Metre {
         (RESOLVED_CELLS * PI * work * pitch / modulus).sqrt()
     }
@@ -114,8 +116,8 @@ impl Adhesion {
         self.work / self.range
     }
 
-    /// Length ℓ of the process zone, in which the tension falls at the edge of a contact: E*ϱ²/πw, and πE*ϱ²/4w for
-    /// [`Potential::Dugdale`].
+    /// Length ℓ of the process zone, in which the tension falls at the edge of a contact: E*ϱ²/πw, and
+    /// πE*ϱ²/4w for [`Potential::Dugdale`].
     pub fn process_zone(&self, modulus: Pascal) -> Metre {
         let length = modulus * self.range * self.range / self.work;
         match self.potential {
@@ -124,22 +126,25 @@ impl Adhesion {
         }
     }
 
-    /// Tabor's parameter (w²/E*²ϱ³κ)^⅓ of summits with the curvature κ: below 0.1 the attraction is long, as in the theory of
-    /// Derjaguin, Muller and Toporov; above 5 it is short, as in that of Johnson, Kendall and Roberts.
+    /// Tabor's parameter (w²/E*²ϱ³κ)^⅓ of summits with the curvature κ: below 0.1 the attraction is long, as
+    /// in the theory of Derjaguin, Muller and Toporov; above 5 it is short, as in that of Johnson, Kendall
+    /// and Roberts.
     pub fn tabor(&self, modulus: Pascal, curvature: PerMetre) -> f64 {
         let ratio = self.work / modulus;
         (ratio * ratio / (self.range.powi(3) * curvature)).cbrt()
     }
 
-    /// Parameter of Pastewka and Robbins for a surface of rms slope h′ and rms curvature h″: (E*h′ϱ/2w)(h′²/h″ϱ)^⅔. The surface
-    /// sticks, and has contact without load, below 1. Proc. Natl. Acad. Sci. 111, 3298 (2014).
+    /// Parameter of Pastewka and Robbins for a surface of rms slope h′ and rms curvature h″:
+    /// (E*h′ϱ/2w)(h′²/h″ϱ)^⅔. The surface sticks, and has contact without load, below 1. Proc. Natl. Acad.
+    /// Sci. 111, 3298 (2014).
     pub fn pastewka_robbins(&self, modulus: Pascal, slope: f64, curvature: PerMetre) -> f64 {
         let length = slope * slope / (curvature * self.range);
         0.5 * modulus * slope * self.range / self.work * length.powf(2.0 / 3.0)
     }
 }
 
-/// Length of the process zone in cells from which on the lattice causes no hysteresis, and moves the pull-off force by 1 % at most.
+/// Length of the process zone in cells from which on the lattice causes no hysteresis, and moves the pull-off
+/// force by 1 % at most.
 pub const RESOLVED_CELLS: f64 = 1.5;
 
 #[cfg(test)]

@@ -1,10 +1,12 @@
 //! The contact of bodies that attract each other across their gap.
 //!
-//! The lower bound of each pressure is the tension at its gap, which the solution itself determines. Each round solves a contact
-//! with the bounds at the gap of the round before. The energy of the attraction is concave, and lies below its tangents: hence each
-//! round lowers the energy, and the rounds converge to an equilibrium. Without positive influence between cells in the inverse of
-//! the operator, the gaps of all rounds change in one direction, and the equilibrium is the first one that bodies on their way reach.
-//! Rounds are slow near an instability. Newton's iteration then finds the equilibrium towards which they converge.
+//! The lower bound of each pressure is the tension at its gap, which the solution itself determines. Each
+//! round solves a contact with the bounds at the gap of the round before. The energy of the attraction is
+//! concave, and lies below its tangents: hence each round lowers the energy, and the rounds converge to an
+//! equilibrium. Without positive influence between cells in the inverse of the operator, the gaps of all
+//! rounds change in one direction, and the equilibrium is the first one that bodies on their way reach.
+//! Rounds are slow near an instability. Newton's iteration then finds the equilibrium towards which they
+//! converge.
 
 mod forecast;
 mod law;
@@ -37,25 +39,29 @@ use newton::NewtonIteration;
 const ROUND_TOLERANCE: f64 = 0.2;
 /// Largest and smallest tolerance of a round; the smallest is a fraction of the tolerance of the solution.
 const ROUND_TOLERANCES: [f64; 2] = [1e-2, 0.3];
-/// Number of rounds after an attempt of Newton's iteration that fails. It doubles with each failure, up to a limit.
+/// Number of rounds after an attempt of Newton's iteration that fails. It doubles with each failure, up to a
+/// limit.
 const ROUNDS_AFTER_FAILURE: [usize; 2] = [4, 32];
 
-/// Solves the frictionless contact of a pair of bodies that attract each other: with the tension σ(g) of the `adhesion`,
+/// Solves the frictionless contact of a pair of bodies that attract each other: with the tension σ(g) of the
+/// `adhesion`,
 ///
 /// ```text
 /// g ≥ 0,   −σ(g) ≤ p,   (p + σ(g)) g = 0   where p is below its `upper` bound;   g = h + C p − δ
 /// ```
 ///
-/// Cells in contact have g = 0 and p > −σ(0). The answer is an ordinary solution whose lower bounds are the tensions, so that
-/// [`Solution::contact_cells`] and the others mean what they say. Its residual is that of these equations.
+/// Cells in contact have g = 0 and p > −σ(0). The answer is an ordinary solution whose lower bounds are the
+/// tensions, so that [`Solution::contact_cells`] and the others mean what they say. Its residual is that of
+/// these equations.
 ///
-/// There may be several equilibria. Bodies that come from afar, without a `last` solution, reach the one with the largest gaps.
-/// From the `last` solution, the bodies move on to the next equilibrium that is stable under the `control`; only the gap and the
-/// pressure of the `last` solution count. A load may be negative if there is a `last` solution.
+/// There may be several equilibria. Bodies that come from afar, without a `last` solution, reach the one with
+/// the largest gaps. From the `last` solution, the bodies move on to the next equilibrium that is stable
+/// under the `control`; only the gap and the pressure of the `last` solution count. A load may be negative if
+/// there is a `last` solution.
 ///
 /// # Errors
-/// The errors of [`solve_normal`](crate::solver::solve_normal), [`Error::PullOff`] if no equilibrium carries a load that pulls, and
-/// [`Error::Unsupported`] on several ranks.
+/// The errors of [`solve_normal`](crate::solver::solve_normal), [`Error::PullOff`] if no equilibrium carries
+/// a load that pulls, and [`Error::Unsupported`] on several ranks.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -74,8 +80,9 @@ pub fn solve_adhesive(
 }
 
 impl Adhesion {
-    /// Cost of a contact with Tabor's parameter from 0.1 to 1, as measured (docs/performance.md). The memory is that of the directions of a
-    /// step of Newton's iteration, usually 25 or less and 60 at most, and of the fields of two states.
+    /// Cost of a contact with Tabor's parameter from 0.1 to 1, as measured (docs/performance.md). The memory
+    /// is that of the directions of a step of Newton's iteration, usually 25 or less and 60 at most, and of
+    /// the fields of two states.
     pub const COST: InterfaceCost = InterfaceCost { convolutions: 45.0, work: 3.5, memory: 40.0 };
 }
 
@@ -220,8 +227,8 @@ impl Problem<'_> {
         Bounds::up_to(self.upper.clone()).above(gap.mapv(|g| -self.adhesion.tension(g)))
     }
 
-    /// Returns the bounds of a solution: the pressure itself on open cells, which differs from their tension by less than the
-    /// tolerance, and the largest tension on the cells in contact.
+    /// Returns the bounds of a solution: the pressure itself on open cells, which differs from their tension
+    /// by less than the tolerance, and the largest tension on the cells in contact.
     fn bounds_of(&self, solution: &Solution, gap: &Field, influence: f64) -> Bounds {
         let closed = -self.adhesion.max_tension();
         let lower = Zip::from(&solution.pressure).and(gap).map_collect(|p, g| {
@@ -236,8 +243,8 @@ impl Problem<'_> {
         self.adhesion.potential == Potential::Exponential
     }
 
-    /// Creates the error for a load that no equilibrium carries. The bodies are drawn apart from their `last` contact to find the
-    /// least load that adhesion carries.
+    /// Creates the error for a load that no equilibrium carries. The bodies are drawn apart from their `last`
+    /// contact to find the least load that adhesion carries.
     fn pull_off(&self, operator: &mut dyn Operator, load: Newton, last: Option<&Solution>) -> Error {
         match last.map(|last| self.least_load(operator, last)) {
             Some(Ok(least)) => Error::PullOff { load, least },

@@ -29,8 +29,8 @@ const CLOSE: f64 = 1e-2;
 /// Largest reduction of the residual that a step aims at.
 const MAX_REDUCTION: f64 = 0.1;
 
-/// The unknowns of the iteration: pressure, displacement and approach. With the cells in contact C, capped cells U and open cells O,
-/// the equations of a step are
+/// The unknowns of the iteration: pressure, displacement and approach. With the cells in contact C, capped
+/// cells U and open cells O, the equations of a step are
 ///
 /// ```text
 /// C: C dp − dδ = −g      U: dp = H − p      O: dp − D (C dp − dδ) = −(p + σ),   D = −dσ/dg
@@ -53,7 +53,8 @@ pub(super) struct NewtonIteration<'a> {
 
 /// Linear equations of a step, cell by cell.
 struct Step {
-    /// Under load control, a change of the pressures with the sum 1: the preconditioned unit displacement of the cells in contact.
+    /// Under load control, a change of the pressures with the sum 1: the preconditioned unit displacement of
+    /// the cells in contact.
     unit: Option<SingleField>,
     /// D of the open cells.
     softening: SingleField,
@@ -131,8 +132,9 @@ impl<'a> NewtonIteration<'a> {
         Ok(None)
     }
 
-    /// Performs a step whose equations hold to a fraction `aim` of their right-hand side. They are solved in single precision, and the
-    /// displacement of the solution is computed in double precision. Returns false if the step has no solution.
+    /// Performs a step whose equations hold to a fraction `aim` of their right-hand side. They are solved in
+    /// single precision, and the displacement of the solution is computed in double precision. Returns false
+    /// if the step has no solution.
     fn step(&mut self, operator: &mut dyn Operator, gap: &Field, aim: f64) -> bool {
         let shape = gap.raw_dim();
         let unit = matches!(self.problem.control, Control::Load(_)).then(|| {

@@ -16,9 +16,11 @@ columns! {
         pub min_pressure: Pascal,
         /// Energy of the attraction, ΔA Σ v(g): −w for each area in contact, 0 far apart.
         pub adhesion_energy: Joule,
-        /// Energy lost in jumps: the work done minus the energy stored, by the trapezoidal rule; 0 for bodies that come from afar.
+        /// Energy lost in jumps: the work done minus the energy stored, by the trapezoidal rule; 0 for bodies
+        /// that come from afar.
         pub energy_lost: Joule,
-        /// Number of jumps: increments, or positions, that lose more than 1 % of the energy, and more than the work of adhesion of a cell.
+        /// Number of jumps: increments, or positions, that lose more than 1 % of the energy, and more than
+        /// the work of adhesion of a cell.
         pub jumps: usize,
     }
 }
@@ -37,8 +39,9 @@ columns! {
         pub jumps: usize,
         /// Drag by adhesion: the energy lost over the distance slid.
         pub adhesive_drag: Newton,
-        /// Largest difference between the load of a position from afar and that of bodies that come from the position before, over the mean
-        /// magnitude of the load; of every eighth position. 0, not measured, with `history = "path"` or `plastic_update = "step"`.
+        /// Largest difference between the load of a position from afar and that of bodies that come from the
+        /// position before, over the mean magnitude of the load; of every eighth position. 0, not measured,
+        /// with `history = "path"` or `plastic_update = "step"`.
         pub history_difference: f64,
     }
 }
@@ -63,7 +66,8 @@ impl Stored {
 }
 
 impl AdhesionRecord {
-    /// Creates the record of a contact whose bodies come from the contact `before`, or from afar; `None` between hard walls.
+    /// Creates the record of a contact whose bodies come from the contact `before`, or from afar; `None`
+    /// between hard walls.
     pub fn of(interface: &dyn Interface, solution: &Solution, before: Option<&Solution>) -> Option<Self> {
         (!interface.is_hard()).then(|| {
             let record = Self::alone(interface, solution);
@@ -93,7 +97,8 @@ impl AdhesionRecord {
 
     /// Adds the energy lost since the contact `before` of the same bodies.
     ///
-    /// The work is ½(W₀ + W₁)(δ₁ − δ₀), and that of a change of the gap h by the motion, −½ΔA Σ (p₀ + p₁)(h₁ − h₀).
+    /// The work is ½(W₀ + W₁)(δ₁ − δ₀), and that of a change of the gap h by the motion, −½ΔA Σ (p₀ + p₁)(h₁
+    /// − h₀).
     fn since(self, interface: &dyn Interface, solution: &Solution, before: &Solution) -> Self {
         let moved: Metre = solution.approach - before.approach;
         let mut work = 0.5 * (solution.load() + before.load()) * moved;
@@ -104,7 +109,8 @@ impl AdhesionRecord {
         let now = Stored::of(solution, &self);
         let then = Stored::of(before, &Self::alone(interface, before));
         let lost = work - (now.energy - then.energy);
-        // A loss below the work of adhesion of a cell is no jump, however small the energy of separated bodies is.
+        // A loss below the work of adhesion of a cell is no jump, however small the energy of separated
+        // bodies is.
         let of_a_cell = -interface.energy(0.0) * solution.grid.cell_area();
         let jumps = lost > of_a_cell.max(JUMP * now.size.max(then.size));
         Self { energy_lost: if jumps { lost } else { 0.0 }, jumps: usize::from(jumps), ..self }

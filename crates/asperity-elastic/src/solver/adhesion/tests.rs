@@ -16,7 +16,8 @@ use crate::units::Metre;
 
 const ELASTIC: CellValues = CellValues::Uniform(f64::INFINITY);
 
-/// A sphere of radius 1 over a grid of this width. With E* = 3/4 and w = 1/π, loads are in πwR and lengths in the units of Maugis.
+/// A sphere of radius 1 over a grid of this width. With E* = 3/4 and w = 1/π, loads are in πwR and lengths in
+/// the units of Maugis.
 fn sphere(cells: usize, width: f64) -> (FreeFft, Field) {
     let pitch = width / cells as f64;
     let grid = Grid::new([cells, cells], [pitch, pitch]).unwrap();
@@ -131,8 +132,8 @@ fn random_contact(random: &mut ChaCha8Rng, cells: [usize; 2]) -> Random {
     Random { operator, gap, adhesion, upper, approaches: [approach, 0.95 * mean] }
 }
 
-/// Solves by lagged bounds alone, each contact to 1e-9, until the bounds stop changing. This converges from the first bounds to the
-/// right state, however slowly.
+/// Solves by lagged bounds alone, each contact to 1e-9, until the bounds stop changing. This converges from
+/// the first bounds to the right state, however slowly.
 fn lagged(contact: &mut Random, method: Method, approach: Metre, closed: bool) -> Solution {
     let params = Params::new().with_method(method).with_tolerance(1e-9).with_max_convolutions(100_000);
     let Random { operator, gap, adhesion, upper, .. } = contact;
@@ -156,8 +157,8 @@ fn lagged(contact: &mut Random, method: Method, approach: Metre, closed: bool) -
     panic!("the bounds do not settle");
 }
 
-/// Returns the largest eigenvalue of S D: S the compliance of the open cells while the cells in contact stay closed, D the softening of
-/// the attraction. The state is stable below 1.
+/// Returns the largest eigenvalue of S D: S the compliance of the open cells while the cells in contact stay
+/// closed, D the softening of the attraction. The state is stable below 1.
 fn instability(contact: &Random, solution: &Solution) -> f64 {
     let gap = solution.gap();
     let cells: Vec<_> = gap.indexed_iter().map(|(cell, _)| cell).collect();
@@ -194,8 +195,8 @@ fn instability(contact: &Random, solution: &Solution) -> f64 {
     value
 }
 
-/// Compares a number of random contacts with the reference, from afar and from closed contact, and checks that all are stable. Returns
-/// how many have two states, and the convolutions.
+/// Compares a number of random contacts with the reference, from afar and from closed contact, and checks
+/// that all are stable. Returns how many have two states, and the convolutions.
 fn compare(count: usize, seed: u64, cells: [usize; 2], method: Method) -> (usize, f64) {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let (mut two, mut convolutions) = (0, 0.0);

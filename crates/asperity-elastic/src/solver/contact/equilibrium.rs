@@ -101,7 +101,8 @@ impl Equilibrium {
         self.shear().map_or([0.0; 2], |shear| shear.map(|q| area * q.sum()))
     }
 
-    /// Rigid-body displacement of the upper body relative to the lower one along x and y; 0 if no cell may stick.
+    /// Rigid-body displacement of the upper body relative to the lower one along x and y; 0 if no cell may
+    /// stick.
     pub fn rigid_displacement(&self) -> [Metre; 2] {
         self.frictional().map_or([0.0; 2], |solution| solution.rigid_displacement)
     }
@@ -112,14 +113,16 @@ impl Equilibrium {
         self.normal().grid.cell_area() * sticking
     }
 
-    /// Slip of the upper surface over the lower one along x and y since the contact before, m; `None` if no cell may stick.
+    /// Slip of the upper surface over the lower one along x and y since the contact before, m; `None` if no
+    /// cell may stick.
     pub fn slip(&self) -> Option<&[Field; 2]> {
         self.frictional().map(|solution| &solution.slip)
     }
 
-    /// Returns the energy dissipated by friction in a contact whose cells may stick, and the bound of its error; see
-    /// [`FrictionalSolution::dissipation`] since the contact `before`, and [`RollingSolution::dissipation`], whose error is not known. The
-    /// error of a first contact is not known either, and is left out.
+    /// Returns the energy dissipated by friction in a contact whose cells may stick, and the bound of its
+    /// error; see [`FrictionalSolution::dissipation`] since the contact `before`, and
+    /// [`RollingSolution::dissipation`], whose error is not known. The error of a first contact is not known
+    /// either, and is left out.
     pub fn dissipation(&self, before: Option<&Self>) -> [Joule; 2] {
         match self {
             Self::Frictionless(_) | Self::Sliding(..) => [0.0; 2],

@@ -1,4 +1,5 @@
-//! A contact of elastic bodies, solved step after step: the interface between them, and how they slip on each other.
+//! A contact of elastic bodies, solved step after step: the interface between them, and how they slip on each
+//! other.
 
 mod equilibrium;
 mod rolling;
@@ -18,8 +19,8 @@ use crate::operator::Operator;
 use crate::solver::friction::{FrictionalProblem, Loading};
 use crate::solver::{Before, Bounds, Interface, NormalProblem, Params, Watch};
 
-/// Solves contacts of two elastic bodies on one grid. Each implementation is one way in which the bodies slip on each other: without
-/// friction, in gross sliding, with stick and slip, or in steady rolling.
+/// Solves contacts of two elastic bodies on one grid. Each implementation is one way in which the bodies slip
+/// on each other: without friction, in gross sliding, with stick and slip, or in steady rolling.
 pub trait ContactSolver: Send {
     /// The grid of the contact.
     fn grid(&self) -> &Grid;
@@ -31,7 +32,8 @@ pub trait ContactSolver: Send {
     ///
     /// # Errors
     /// The errors of [`solve_normal`](crate::solver::solve_normal), of the [`Interface`], and of
-    /// [`solve_frictional`](crate::solver::solve_frictional) or [`solve_rolling`](crate::solver::solve_rolling).
+    /// [`solve_frictional`](crate::solver::solve_frictional) or
+    /// [`solve_rolling`](crate::solver::solve_rolling).
     fn solve(&mut self, problem: &ContactProblem<'_>) -> Result<Equilibrium>;
 
     /// Whether the surfaces may stick, so that their tangential displacement changes the contact.
@@ -53,10 +55,11 @@ pub struct ContactProblem<'a> {
     pub before: Option<&'a Equilibrium>,
     /// A contact or a pressure near the solution. It changes the cost alone.
     pub guess: Option<Guess<'a>>,
-    /// Tangential displacement of the lower surface relative to the upper one since the contact before that is no slip, for example by
-    /// plastic strain, m.
+    /// Tangential displacement of the lower surface relative to the upper one since the contact before that
+    /// is no slip, for example by plastic strain, m.
     pub drift: Option<&'a [Field; 2]>,
-    /// Additional compliance of each cell under its own pressure, m/Pa, as of cells that lose height under it; `None` if there is none.
+    /// Additional compliance of each cell under its own pressure, m/Pa, as of cells that lose height under
+    /// it; `None` if there is none.
     pub compliance: Option<&'a CellValues>,
     /// The parameters of the solver.
     pub params: &'a Params,

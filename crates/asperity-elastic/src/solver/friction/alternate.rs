@@ -23,8 +23,8 @@ const FIRST_TOLERANCE: f64 = 3e-2;
 const TOLERANCE_REDUCTION: f64 = 0.1;
 /// No round is solved to less than this fraction of the tolerance of the solution.
 const MIN_TOLERANCE_SHARE: f64 = 0.5;
-/// Factor of the relaxation after a round that has not lowered the residual. The relaxation is the fraction of the
-/// change of the normal displacement under shear that the next round applies.
+/// Factor of the relaxation after a round that has not lowered the residual. The relaxation is the fraction
+/// of the change of the normal displacement under shear that the next round applies.
 const RELAXATION_REDUCTION: f64 = 0.5;
 /// Factor of the relaxation after a round that has lowered the residual, up to 1.
 const RELAXATION_GROWTH: f64 = 1.2;
@@ -65,8 +65,8 @@ impl Start {
     }
 }
 
-/// Solves one increment. The bounds of the `problem` are those of cells without shear; in sliding, those under shear. If it fails, it adds
-/// its cost to `failed`.
+/// Solves one increment. The bounds of the `problem` are those of cells without shear; in sliding, those
+/// under shear. If it fails, it adds its cost to `failed`.
 pub(super) fn alternate(
     operator: &mut dyn CoupledOperator,
     interface: &dyn Interface,
@@ -116,7 +116,8 @@ struct Increment<'a> {
 }
 
 impl Increment<'_> {
-    /// Solves the two problems alternately, from a pressure within these bounds and a shear, if they are known.
+    /// Solves the two problems alternately, from a pressure within these bounds and a shear, if they are
+    /// known.
     fn alternate(
         &mut self,
         mut pressure: Option<Field>,
@@ -210,8 +211,8 @@ impl Increment<'_> {
             .then(|| bounds_under_shear(&self.friction, self.problem.normal.bounds, pressure, shear))
     }
 
-    /// Solves the normal problem under a shear that displaces the surface normally by `shear_displacement`, with
-    /// the `combined` bounds of the pressure.
+    /// Solves the normal problem under a shear that displaces the surface normally by `shear_displacement`,
+    /// with the `combined` bounds of the pressure.
     fn solve_normal_problem(
         &mut self,
         shear_displacement: Option<&Field>,
@@ -279,7 +280,8 @@ impl Increment<'_> {
 
     /// Computes the residual of the pressure under the shear that follows from it.
     fn residual(&self, normal: &Solution, bounds: &Bounds) -> Residual {
-        // The multiplier of the load does not depend on cells that leave their upper bounds by a small amount.
+        // The multiplier of the load does not depend on cells that leave their upper bounds by a small
+        // amount.
         let approach =
             if self.grows_junctions { Some(normal.approach) } else { self.problem.normal.control.approach() };
         residual(

@@ -64,8 +64,8 @@ impl Symmetric {
         Self(std::array::from_fn(|n| self.0[n] + other.0[n]))
     }
 
-    /// Solves `A x = b` with a positive semidefinite A, regularised by [`REGULARISATION`] of its trace, so that x
-    /// is short along a null direction of A.
+    /// Solves `A x = b` with a positive semidefinite A, regularised by [`REGULARISATION`] of its trace, so
+    /// that x is short along a null direction of A.
     pub(super) fn solve(self, b: Vector) -> Vector {
         let least = REGULARISATION * (self.0[0] + self.0[2]);
         let [xx, xy, yy] = [self.0[0] + least, self.0[1], self.0[2] + least];
@@ -78,15 +78,15 @@ impl Symmetric {
     }
 }
 
-/// Fraction of the trace that is added to the diagonal of a matrix before it is solved. Smaller relative determinants
-/// count as zero.
+/// Fraction of the trace that is added to the diagonal of a matrix before it is solved. Smaller relative
+/// determinants count as zero.
 const REGULARISATION: f64 = 1e-12;
 /// Largest number of Newton steps of [`offset_for_sum`].
 const MAX_STEPS: usize = 100;
 /// Negligible error of the sum, relative to the sum of the magnitudes.
 const SUM_ACCURACY: f64 = 1e-13;
-/// Number of step lengths tried along Newton's direction. If nearly all cells slip alike, the full step is far too
-/// long.
+/// Number of step lengths tried along Newton's direction. If nearly all cells slip alike, the full step is
+/// far too long.
 const STEP_LENGTHS: [f64; 2] = [1.0, 0.1];
 /// Factor by which a step to the minimum of the majorant is lengthened while this lowers the function.
 const LENGTHENING: f64 = 4.0;
@@ -94,17 +94,18 @@ const LENGTHENING: f64 = 4.0;
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Units of rounding in a comparison of two values of the function.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// If the gradient is below this fraction of the sum of its magnitudes, the decrease of the function is below rounding.
+/// If the gradient is below this fraction of the sum of its magnitudes, the decrease of the function is below
+/// rounding.
 const NEAR: f64 = 1e-5;
 /// Newton's step is then limited to this multiple of the step to the minimum of the majorant.
 const MAX_STEP: f64 = 1e3;
 
-/// Computes the offset e with Σ P(yᵢ + e) = `wanted`, where P is the projection [`onto_disc`] of radius gᵢ. It exists
-/// if |`wanted`| is less than Σ gᵢ. `cells` are y and g of each cell, `start` is an offset nearby.
+/// Computes the offset e with Σ P(yᵢ + e) = `wanted`, where P is the projection [`onto_disc`] of radius gᵢ.
+/// It exists if |`wanted`| is less than Σ gᵢ. `cells` are y and g of each cell, `start` is an offset nearby.
 ///
-/// The sum is the gradient of the convex function [`Objective`]. Newton's iteration with a sufficient decrease finds
-/// its minimum. If it fails, a step to the minimum of a quadratic majorant or beyond follows, as in Weiszfeld's
-/// iteration.
+/// The sum is the gradient of the convex function [`Objective`]. Newton's iteration with a sufficient
+/// decrease finds its minimum. If it fails, a step to the minimum of a quadratic majorant or beyond follows,
+/// as in Weiszfeld's iteration.
 pub(super) fn offset_for_sum<I: Iterator<Item = (Vector, f64)>>(
     cells: impl Fn() -> I,
     wanted: Vector,
@@ -164,8 +165,8 @@ pub(super) fn offset_for_sum<I: Iterator<Item = (Vector, f64)>>(
     offset
 }
 
-/// The convex function Σ φ(yᵢ + e) − `wanted`·e of an offset e, with φ(v) = ½|v|² in the disc and g|v| − ½g² outside, whose
-/// gradient is Σ P(yᵢ + e) − `wanted`.
+/// The convex function Σ φ(yᵢ + e) − `wanted`·e of an offset e, with φ(v) = ½|v|² in the disc and g|v| − ½g²
+/// outside, whose gradient is Σ P(yᵢ + e) − `wanted`.
 struct Objective {
     /// Value of the function.
     value: f64,

@@ -38,8 +38,8 @@ impl Coupling {
 
 /// Friction in each cell: |q| ≤ min(μp, τ), in any direction of the plane.
 ///
-/// A cell with a smaller |q| sticks. A cell at the limit may slip, and q on the lower body points in the direction of
-/// the slip of the upper body.
+/// A cell with a smaller |q| sticks. A cell at the limit may slip, and q on the lower body points in the
+/// direction of the slip of the upper body.
 #[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Friction {
     /// Coefficient of friction μ.
@@ -48,8 +48,8 @@ pub struct Friction {
     #[key(number = "a number", range = FromZeroOrInfinite("nothing slips"), example = "0.3", exists = exists::FRICTION)]
     #[serde(serialize_with = "or_inf")]
     pub coefficient: f64,
-    /// Coupling between dissimilar bodies: `"goodman"`, pressure displaces tangentially, but shear does not displace normally; `"none"`,
-    /// neither.
+    /// Coupling between dissimilar bodies: `"goodman"`, pressure displaces tangentially, but shear does not
+    /// displace normally; `"none"`, neither.
     #[key(choice, default = Coupling::Full, example = "\"none\"")]
     pub coupling: Coupling,
     /// τ, the largest shear stress of the interface under any pressure, for example of a boundary film.
@@ -65,8 +65,9 @@ pub struct Friction {
     pub shear_strength: Pascal,
     /// α in p² + αq² ≤ H²: shear lowers the cap of the pressure, and the contact grows; about 9 for metals.
     ///
-    /// The yield condition of a plastic cell. With α = 0 the hardness limits only the pressure. Tabor, Proc. R. Soc. A 251, 378 (1959), found α
-    /// near 9 for metals. The criteria of von Mises and Tresca give 27 and 36 if H is three times the yield stress.
+    /// The yield condition of a plastic cell. With α = 0 the hardness limits only the pressure. Tabor, Proc.
+    /// R. Soc. A 251, 378 (1959), found α near 9 for metals. The criteria of von Mises and Tresca give 27 and
+    /// 36 if H is three times the yield stress.
     #[key(number = "a number", range = FromZero, default = 0.0, written = "0", example = "9")]
     pub junction_growth: f64,
 }
@@ -118,7 +119,8 @@ impl Friction {
         if pressure > 0.0 { (self.coefficient * pressure).min(self.shear_strength) } else { 0.0 }
     }
 
-    /// Whether the junctions of bodies with this hardness grow: shear lowers the pressure of their plastic cells.
+    /// Whether the junctions of bodies with this hardness grow: shear lowers the pressure of their plastic
+    /// cells.
     pub(super) fn grows_junctions(&self, hardness: Pascal) -> bool {
         self.junction_growth > 0.0 && self.coefficient > 0.0 && hardness.is_finite()
     }
@@ -129,9 +131,9 @@ impl Friction {
         Self { shear_strength, ..self }
     }
 
-    /// Returns the largest pressure of a cell under `shear`, from p² + αq² = H². For a `pressure` that does not
-    /// satisfy this yet, it returns the mean of the solutions at constant shear and at a shear in proportion to
-    /// the pressure. The result is at least the cap of a sliding cell.
+    /// Returns the largest pressure of a cell under `shear`, from p² + αq² = H². For a `pressure` that does
+    /// not satisfy this yet, it returns the mean of the solutions at constant shear and at a shear in
+    /// proportion to the pressure. The result is at least the cap of a sliding cell.
     pub(super) fn cap(&self, hardness: Pascal, pressure: Pascal, shear: Pascal) -> Pascal {
         let square = self.junction_growth * shear * shear;
         if pressure <= 0.0 || square == 0.0 {

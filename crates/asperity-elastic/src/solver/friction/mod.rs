@@ -27,7 +27,8 @@ use crate::units::{Joule, Metre, Newton, Pascal};
 /// Prescribed displacement, force or sliding direction in the plane, along x and y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tangential {
-    /// Rigid-body displacement D of the upper body relative to the lower one, from the beginning of the loading.
+    /// Rigid-body displacement D of the upper body relative to the lower one, from the beginning of the
+    /// loading.
     Displacement([Metre; 2]),
     /// Force of the upper body on the lower one.
     Force([Newton; 2]),
@@ -74,11 +75,11 @@ pub struct FrictionalSolution {
     pub shear_limit: Field,
     /// Tangential displacement u along x and y, lower minus upper body, m.
     pub displacement: [Field; 2],
-    /// Rigid-body displacement D of the upper body relative to the lower one; after sliding, from the end of the
-    /// sliding.
+    /// Rigid-body displacement D of the upper body relative to the lower one; after sliding, from the end of
+    /// the sliding.
     pub rigid_displacement: [Metre; 2],
-    /// Slip of the upper surface over the lower one in this increment along x and y, m. It is 0 for cells that do
-    /// not touch, and in gross sliding, in which it is arbitrary.
+    /// Slip of the upper surface over the lower one in this increment along x and y, m. It is 0 for cells
+    /// that do not touch, and in gross sliding, in which it is arbitrary.
     pub slip: [Field; 2],
     /// 1 for cells that touch and stick, |q + Δs/c| ≤ g, else 0.
     pub stick: Field,
@@ -108,13 +109,14 @@ impl FrictionalSolution {
         self.normal.elastic_energy() + 0.5 * self.normal.grid.cell_area() * tangential
     }
 
-    /// Computes the energy dissipated by friction in this increment, ΔA Σ ½(g₀ + g)|Δs| over the cells that slip.
-    /// g₀ and g are the largest shear of a cell `before` and after the increment. Without a state before, g
-    /// replaces g₀, as if the load came before the slip. Cells that [leave](Self::leaving) the contact lose ½|q₀||Δs|.
+    /// Computes the energy dissipated by friction in this increment, ΔA Σ ½(g₀ + g)|Δs| over the cells that
+    /// slip. g₀ and g are the largest shear of a cell `before` and after the increment. Without a state
+    /// before, g replaces g₀, as if the load came before the slip. Cells that [leave](Self::leaving) the
+    /// contact lose ½|q₀||Δs|.
     ///
-    /// A cell slips only at its limit. The energy is therefore exact for increments of any size if pressures are
-    /// constant and the slip keeps its direction. If pressures change with the slip, the error is of second order
-    /// in the increment, and [`FrictionalSolution::dissipation_error`] estimates it.
+    /// A cell slips only at its limit. The energy is therefore exact for increments of any size if pressures
+    /// are constant and the slip keeps its direction. If pressures change with the slip, the error is of
+    /// second order in the increment, and [`FrictionalSolution::dissipation_error`] estimates it.
     pub fn dissipation(&self, before: Option<&Self>) -> Joule {
         self.over_slips(before, |then, now| 0.5 * (then + now))
     }
@@ -125,8 +127,9 @@ impl FrictionalSolution {
         self.over_slips(Some(before), |then, now| 0.5 * (now - then).abs())
     }
 
-    /// Returns the cells that were in contact `before` and are no more, each with the magnitude of its shear then, Pa, and the distance of its
-    /// slip in the increment, m. It is empty in gross sliding, in which the slip is arbitrary.
+    /// Returns the cells that were in contact `before` and are no more, each with the magnitude of its shear
+    /// then, Pa, and the distance of its slip in the increment, m. It is empty in gross sliding, in which the
+    /// slip is arbitrary.
     pub fn leaving<'a>(&'a self, before: &'a Self) -> impl Iterator<Item = ([usize; 2], Pascal, Metre)> + 'a {
         let touches = self.shear_limit.iter().any(|limit| *limit > 0.0);
         let moves =
@@ -141,7 +144,8 @@ impl FrictionalSolution {
         })
     }
 
-    /// Computes ΔA Σ |Δs| · `shear`(g₀, g) over the cells that slip, with the limits before and after the increment.
+    /// Computes ΔA Σ |Δs| · `shear`(g₀, g) over the cells that slip, with the limits before and after the
+    /// increment.
     fn over_slips(&self, before: Option<&Self>, shear: impl Fn(Pascal, Pascal) -> Pascal) -> Joule {
         let mut sum = 0.0;
         for ((cell, &now), &sticks) in self.shear_limit.indexed_iter().zip(&self.stick) {

@@ -14,8 +14,8 @@ use asperity_base::watch::InnerWatch;
 
 /// Largest distance of rolling cell by cell, in lengths of the grid.
 const MAX_LENGTHS: usize = 50;
-/// Rolling cell by cell stops without convergence if the change of the shear over a length of the grid, at least
-/// [`MIN_LENGTH`] cells, exceeds this fraction of the previous change.
+/// Rolling cell by cell stops without convergence if the change of the shear over a length of the grid, at
+/// least [`MIN_LENGTH`] cells, exceeds this fraction of the previous change.
 const SLOW_CONTRACTION: f64 = 0.5;
 /// Smallest number of cells of rolling in which a change of the shear is expected.
 const MIN_LENGTH: usize = 10;
@@ -29,8 +29,8 @@ const TOLERANCE_REDUCTION: f64 = 0.1;
 pub struct Rolling {
     /// Prescribed creepage or force.
     pub creep: Creep,
-    /// Spin φ, 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity. Its
-    /// axis is z through the middle of the grid, positive from +x towards +y.
+    /// Spin φ, 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity.
+    /// Its axis is z through the middle of the grid, positive from +x towards +y.
     pub spin: f64,
 }
 
@@ -49,36 +49,37 @@ pub enum Creep {
 pub struct RollingSolution {
     /// The contact. Its slip is the slip while the contact moves by one cell.
     pub contact: FrictionalSolution,
-    /// Creepage ξ along x and y: velocity of the upper body relative to the lower one, over the rolling velocity.
+    /// Creepage ξ along x and y: velocity of the upper body relative to the lower one, over the rolling
+    /// velocity.
     pub creepage: [f64; 2],
     /// Prescribed spin φ, 1/m.
     pub spin: f64,
-    /// Energy dissipated by friction while the contact moves by one cell, from the work of the force Q and the
-    /// moment M:
+    /// Energy dissipated by friction while the contact moves by one cell, from the work of the force Q and
+    /// the moment M:
     ///
     /// ```text
     /// (ξ·Q + φM) Δx + ΔA Σ q·[v(x + Δx) − v(x − Δx)]/2
     /// ```
     ///
-    /// with v the tangential displacement under pressure, which is 0 between identical bodies. Between dissimilar
-    /// bodies the last term is the work of the pressure, which shifts to one side of the gap and resists the
-    /// rolling. The energy is exact except for the error of the tractions. Without slip, under an infinite
-    /// coefficient of friction, the energy is lost at the trailing edge.
+    /// with v the tangential displacement under pressure, which is 0 between identical bodies. Between
+    /// dissimilar bodies the last term is the work of the pressure, which shifts to one side of the gap and
+    /// resists the rolling. The energy is exact except for the error of the tractions. Without slip, under an
+    /// infinite coefficient of friction, the energy is lost at the trailing edge.
     pub dissipation: Joule,
 }
 
 impl RollingSolution {
     /// Work ΔA Σ q·Δs of the shear on the slip of the cells while the contact moves by one cell. It is the
-    /// [`RollingSolution::dissipation`] without the discretisation error of a step by one cell. This error is of
-    /// first order in Δx, and may be the larger part if little slips.
+    /// [`RollingSolution::dissipation`] without the discretisation error of a step by one cell. This error is
+    /// of first order in Δx, and may be the larger part if little slips.
     pub fn slip_work(&self) -> Joule {
         let FrictionalSolution { shear, slip, normal, .. } = &self.contact;
         normal.grid.cell_area() * (0..2).map(|axis| (&shear[axis] * &slip[axis]).sum()).sum::<f64>()
     }
 }
 
-/// Solves the steady state of bodies that roll along x under friction. Their gap is constant, and their material
-/// passes through it.
+/// Solves the steady state of bodies that roll along x under friction. Their gap is constant, and their
+/// material passes through it.
 ///
 /// While the contact moves by one cell, material that was a cell ahead arrives, and slips by
 ///
@@ -86,22 +87,24 @@ impl RollingSolution {
 /// Δs = [ξ + φ (−y, x)] Δx − u(x) + u₀(x + Δx)
 /// ```
 ///
-/// with u₀ the displacement before, and x and y from the middle of the grid. In the steady state u₀ = u. This problem
-/// is solved directly for the shear, like an increment of [`crate::solver::solve_frictional`]. The residual of the
-/// tangential problem is
+/// with u₀ the displacement before, and x and y from the middle of the grid. In the steady state u₀ = u. This
+/// problem is solved directly for the shear, like an increment of [`crate::solver::solve_frictional`]. The
+/// residual of the tangential problem is
 ///
 /// ```text
 /// max |q − P(q + Δs/c)| / max |q|,   P onto |q| ≤ g,   c = ½(C^xx + C^yy) of a cell
 /// ```
 ///
-/// If the iteration does not converge, as in some contacts of one or two cells, the bodies roll cell by cell, with u₀
-/// from the cell before, until the relative change of the shear is below the tolerance. If this does not converge
-/// either, the proximal point method follows. The cost includes all attempts.
+/// If the iteration does not converge, as in some contacts of one or two cells, the bodies roll cell by cell,
+/// with u₀ from the cell before, until the relative change of the shear is below the tolerance. If this does
+/// not converge either, the proximal point method follows. The cost includes all attempts.
 ///
-/// The traction grows from the leading edge, where the bodies stick. Carter, Proc. R. Soc. A 112, 151 (1926); Kalker, Three-dimensional elastic bodies in rolling contact (1990).
+/// The traction grows from the leading edge, where the bodies stick. Carter, Proc. R. Soc. A 112, 151 (1926);
+/// Kalker, Three-dimensional elastic bodies in rolling contact (1990).
 ///
 /// # Errors
-/// Returns the errors of [`crate::solver::solve_frictional`]; [`Error::Unsupported`] for a spin on a boundary that is not free all around.
+/// Returns the errors of [`crate::solver::solve_frictional`]; [`Error::Unsupported`] for a spin on a boundary
+/// that is not free all around.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -179,8 +182,8 @@ pub(in crate::solver) fn roll(
     Ok(RollingSolution { contact, creepage, spin: rolling.spin, dissipation })
 }
 
-/// Computes the work ΔA Σ q·[v(x + Δx) − v(x − Δx)]/2 while the contact moves by one cell, with v the tangential
-/// displacement under pressure.
+/// Computes the work ΔA Σ q·[v(x + Δx) − v(x − Δx)]/2 while the contact moves by one cell, with v the
+/// tangential displacement under pressure.
 fn work_of_pressure(
     operator: &mut dyn CoupledOperator,
     friction: &Friction,
@@ -193,8 +196,8 @@ fn work_of_pressure(
     if !bodies.pressure_displaces_tangentially() {
         return 0.0;
     }
-    // The shear does no work on the central difference of its own displacement, if both neighbouring cells are on
-    // the grid.
+    // The shear does no work on the central difference of its own displacement, if both neighbouring cells
+    // are on the grid.
     let at_end = |i: usize| contact.shear_limit.row(i).iter().any(|limit| *limit > 0.0);
     let under_pressure = (!repeats && (at_end(0) || at_end(columns - 1))).then(|| {
         let mut v = [grid.zeros(), grid.zeros()];
@@ -223,8 +226,8 @@ fn work_of_pressure(
     grid.cell_area() * work
 }
 
-/// Rolls cell by cell from the state without creepage until the relative change of the shear is below the tolerance.
-/// `solve` computes the increment of each cell.
+/// Rolls cell by cell from the state without creepage until the relative change of the shear is below the
+/// tolerance. `solve` computes the increment of each cell.
 fn cell_by_cell(
     solve: &mut impl FnMut(Tangential, Start, f64, &dyn Watch) -> Result<FrictionalSolution>,
     tangential: Tangential,
@@ -275,8 +278,8 @@ fn lever(grid: &Grid, axis: usize) -> Field {
 }
 
 impl FrictionalSolution {
-    /// Computes the moment M = ΔA Σ (x q_y − y q_x) of the upper body on the lower one about z through the middle
-    /// of the grid, N·m.
+    /// Computes the moment M = ΔA Σ (x q_y − y q_x) of the upper body on the lower one about z through the
+    /// middle of the grid, N·m.
     pub fn moment(&self) -> f64 {
         let [x, y] = [0, 1].map(|axis| lever(&self.normal.grid, axis));
         self.normal.grid.cell_area() * ((x * &self.shear[1]).sum() - (y * &self.shear[0]).sum())

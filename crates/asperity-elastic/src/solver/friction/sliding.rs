@@ -28,7 +28,8 @@ impl Sliding {
     }
 }
 
-/// Solves the contact of sliding bodies whose shear displaces them normally. The bounds of the `problem` include the effect of the shear.
+/// Solves the contact of sliding bodies whose shear displaces them normally. The bounds of the `problem`
+/// include the effect of the shear.
 pub(in crate::solver) fn solve_sliding(
     operator: &mut dyn CoupledOperator,
     interface: &dyn Interface,

@@ -9,25 +9,26 @@ use crate::solver::friction::{Friction, FrictionalProblem, FrictionalSolution, L
 use crate::solver::{Before, Bounds, HardWall, Interface, NormalProblem, Params, Stats};
 use crate::units::Dimension;
 
-/// Solves one implicit increment of a contact with friction: the normal contact of [`crate::solver::solve_normal`]
-/// together with
+/// Solves one implicit increment of a contact with friction: the normal contact of
+/// [`crate::solver::solve_normal`] together with
 ///
 /// ```text
 /// |q| ≤ g = min(μp, τ);   |q| < g ⇒ Δs = 0;   |q| = g ⇒ Δs = λ q, λ ≥ 0
 /// s = D − u(q, p),   Δs = s − s₀
 /// ```
 ///
-/// s₀ is the slip of the solution `before`; none for bodies that have not touched yet. Normal and tangential problems
-/// are solved alternately, each for the tractions of the other (Panagiotopoulos 1975), until both are solved. One
-/// round is enough if shear neither displaces the surface normally nor lowers its caps. Residuals are η of
-/// [`crate::solver::residual()`] and
+/// s₀ is the slip of the solution `before`; none for bodies that have not touched yet. Normal and tangential
+/// problems are solved alternately, each for the tractions of the other (Panagiotopoulos 1975), until both
+/// are solved. One round is enough if shear neither displaces the surface normally nor lowers its caps.
+/// Residuals are η of [`crate::solver::residual()`] and
 ///
 /// ```text
 /// max |c (q − P(q + Δs/c))| / (f std(u_z)),   P onto |q| ≤ g,   f = min(1, Σg/Σp),   c = ½(C^xx + C^yy) of a cell
 /// ```
 ///
 /// # Errors
-/// Returns the errors of [`crate::solver::solve_normal`]; [`crate::Error::BeyondFriction`] for a force that friction cannot hold.
+/// Returns the errors of [`crate::solver::solve_normal`]; [`crate::Error::BeyondFriction`] for a force that
+/// friction cannot hold.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -47,8 +48,8 @@ pub fn solve_frictional(
     solve_stick_slip(operator, &HardWall, friction, &problem, [before; 2], None)
 }
 
-/// Solves one increment after the contact `before`, beginning with the tractions of the `nearest` one, with a `drift` of the lower surface relative
-/// to the upper one since then that is no slip.
+/// Solves one increment after the contact `before`, beginning with the tractions of the `nearest` one, with a
+/// `drift` of the lower surface relative to the upper one since then that is no slip.
 pub(in crate::solver) fn solve_stick_slip(
     operator: &mut dyn CoupledOperator,
     interface: &dyn Interface,

@@ -46,8 +46,8 @@ impl Transport {
 }
 
 impl History {
-    /// Returns the reference of the slip after a contact, with a `drift` of the lower surface relative to the upper one since then that is no
-    /// slip.
+    /// Returns the reference of the slip after a contact, with a `drift` of the lower surface relative to the
+    /// upper one since then that is no slip.
     pub(super) fn since(before: Option<&FrictionalSolution>, drift: Option<&[Field; 2]>) -> Self {
         let slip = before.map(FrictionalSolution::whole_slip);
         match (slip, drift) {
@@ -78,8 +78,8 @@ impl History {
     }
 }
 
-/// The shift S by a cell along the rolling direction x. The last column keeps its values, or takes those of the first
-/// column on a periodic surface.
+/// The shift S by a cell along the rolling direction x. The last column keeps its values, or takes those of
+/// the first column on a periodic surface.
 #[derive(Clone, Copy)]
 pub(super) struct ShiftByCell {
     cells: usize,

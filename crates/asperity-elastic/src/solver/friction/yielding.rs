@@ -4,8 +4,8 @@ use crate::grid::{CellValues, Field};
 use crate::solver::Bounds;
 use crate::solver::friction::Friction;
 
-/// Computes the bounds of a `pressure` under a `shear` with junction growth, by [`Friction::cap`] from the bounds
-/// `unsheared` of cells without shear.
+/// Computes the bounds of a `pressure` under a `shear` with junction growth, by [`Friction::cap`] from the
+/// bounds `unsheared` of cells without shear.
 pub(super) fn bounds_under_shear(
     friction: &Friction,
     unsheared: &Bounds,
@@ -21,8 +21,8 @@ pub(super) fn bounds_under_shear(
     Bounds::up_to(upper).above(unsheared.lower().clone())
 }
 
-/// Computes a start for the `next` bounds from a pressure within the last `bounds`. Capped cells move to their new
-/// upper bounds.
+/// Computes a start for the `next` bounds from a pressure within the last `bounds`. Capped cells move to
+/// their new upper bounds.
 pub(super) fn start_within(pressure: &Field, bounds: &Bounds, next: &Bounds) -> Field {
     let mut start = pressure.clone();
     for (cell, p) in start.iter_mut().enumerate() {
@@ -33,8 +33,8 @@ pub(super) fn start_within(pressure: &Field, bounds: &Bounds, next: &Bounds) -> 
     start
 }
 
-/// Computes the largest shear of each cell under its pressure. With junction growth (`grows_junctions`) it is at most
-/// the shear limit of a cell of this `hardness` without pressure.
+/// Computes the largest shear of each cell under its pressure. With junction growth (`grows_junctions`) it is
+/// at most the shear limit of a cell of this `hardness` without pressure.
 pub(super) fn shear_limits(
     friction: &Friction,
     hardness: &CellValues,

@@ -1,7 +1,7 @@
 //! Excluded combinations of a case file, in one table.
 //!
-//! Each row has a message, a hint and the key that the error points to. A case is checked against the rows once all of its
-//! tables are read. `docs/input/combinations.md` lists them, and a test runs their examples.
+//! Each row has a message, a hint and the key that the error points to. A case is checked against the rows
+//! once all of its tables are read. `docs/input/combinations.md` lists them, and a test runs their examples.
 
 mod bodies;
 mod device;
@@ -31,7 +31,8 @@ pub struct Exclusion {
     pub this: String,
     /// The entry that excludes it, in Markdown.
     pub with: String,
-    /// The message of the error. `{key}` stands for the key that it points to, `{path}` for its dotted name, `{value}` for its value.
+    /// The message of the error. `{key}` stands for the key that it points to, `{path}` for its dotted name,
+    /// `{value}` for its value.
     pub message: String,
     /// The hint; empty if the message is enough.
     pub hint: String,
@@ -59,7 +60,8 @@ struct Tables<'a> {
     case: &'a Case,
 }
 
-/// Rules of the bodies and of their loading and motion, which come before those of the laws that change the bodies.
+/// Rules of the bodies and of their loading and motion, which come before those of the laws that change the
+/// bodies.
 const OF_THE_CONTACT: [&[Rule]; 6] =
     [bodies::RULES, viscoelastic::RULES, motion::RULES, loading::RULES, plasticity::RULES, running::RULES];
 
@@ -88,8 +90,8 @@ pub fn rules() -> Vec<Exclusion> {
     exclusions
 }
 
-/// Puts the laws of a body into a text of a rule: `{a law}` are all of them in words, `{law tables}` their tables, `{law}` and
-/// `{law example}` the name and the example of the first one.
+/// Puts the laws of a body into a text of a rule: `{a law}` are all of them in words, `{law tables}` their
+/// tables, `{law}` and `{law example}` the name and the example of the first one.
 fn with_laws(text: &str) -> String {
     let (mut laws, mut tables, mut names, mut examples) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     each_law!(L => {

@@ -1,7 +1,7 @@
 //! Keys of a case file, each declared once, as a field of the struct of its table.
 //!
-//! A declaration holds the name, the accepted values, the default, an example and the meaning. The reader of case files,
-//! its messages, the units of study axes and the tables of `docs/input` are derived from it.
+//! A declaration holds the name, the accepted values, the default, an example and the meaning. The reader of
+//! case files, its messages, the units of study axes and the tables of `docs/input` are derived from it.
 
 mod numbers;
 mod source;
@@ -131,8 +131,9 @@ mod tests {
     use super::{BodyKeys, HardnessMap, TopographySpec, UpperKeys};
     use crate::case::{Contact, FrictionSpec, MotionSpec, Output, SlidingSpec, StageSpec, SubsurfaceSpec};
 
-    /// Reads a table of this dotted name and of these sections, once for each choice, with the examples of the required keys, and with the
-    /// default of the others if they are `told`. `one` is a key of which one of several is required.
+    /// Reads a table of this dotted name and of these sections, once for each choice, with the examples of
+    /// the required keys, and with the default of the others if they are `told`. `one` is a key of which one
+    /// of several is required.
     fn read<T>(
         path: &str,
         sections: &[Section],
@@ -181,7 +182,8 @@ mod tests {
         read(&path.split('.').fold(root, |table, name| table.table(name).unwrap().unwrap()))
     }
 
-    /// Checks that a table reads the example of each key of the sections of a `kind`, beside the keys `beside` or in place of them.
+    /// Checks that a table reads the example of each key of the sections of a `kind`, beside the keys
+    /// `beside` or in place of them.
     fn check_examples<T>(
         path: &str,
         sections: &[Section],

@@ -46,7 +46,8 @@ fn end(_: &dyn Value, _: &Key) -> Result<()> {
 /// The most values of a list.
 const MAX_POINTS: usize = 10_000;
 
-/// Reads a list of values, or a table of their ends, with this `spacing` unless the table says otherwise. A number is the first of two.
+/// Reads a list of values, or a table of their ends, with this `spacing` unless the table says otherwise. A
+/// number is the first of two.
 pub(super) fn several(
     entry: &Entry<'_>,
     key: &Key,

@@ -9,10 +9,12 @@ use asperity_base::units::Dimension;
 /// Keys of a study file that a case file does not have.
 const OF_A_STUDY: [&str; 4] = ["base", "axes", "table", "exclude"];
 
-/// The kind of topographies and hardness maps in the memory of a program, which no file contains. Hints and the JSON schema leave it out.
+/// The kind of topographies and hardness maps in the memory of a program, which no file contains. Hints and
+/// the JSON schema leave it out.
 pub(in crate::case) const GIVEN: &str = "given";
 
-/// Returns the dotted name under which a table is declared. A table of an array has the name of the array, a layer that of its topography.
+/// Returns the dotted name under which a table is declared. A table of an array has the name of the array, a
+/// layer that of its topography.
 fn declared(path: &str) -> String {
     let parts = path.trim_matches(['[', ']']).split('.');
     let name =
@@ -29,7 +31,8 @@ fn sections(path: &str) -> impl Iterator<Item = &'static Section> {
     })
 }
 
-/// Returns the declarations of a dotted key of a case, or of the list of which it is an element: `subsurface.planes.0`.
+/// Returns the declarations of a dotted key of a case, or of the list of which it is an element:
+/// `subsurface.planes.0`.
 fn declarations(key: &str) -> impl Iterator<Item = &'static Key> {
     let mut of_list = key;
     while let Some((list, index)) = of_list.rsplit_once('.')
@@ -41,12 +44,14 @@ fn declarations(key: &str) -> impl Iterator<Item = &'static Key> {
     sections(table).flat_map(|section| section.keys).filter(move |key| key.name == name)
 }
 
-/// Returns the dimension of a dotted key of a case, for example force for `contact.load`; none for pure numbers and other values.
+/// Returns the dimension of a dotted key of a case, for example force for `contact.load`; none for pure
+/// numbers and other values.
 pub fn dimension(key: &str) -> Option<Dimension> {
     declarations(key).next().and_then(|key| key.kind.dimension())
 }
 
-/// Returns the declaration of a dotted key of a case. Of several, for topographies of different forms, the one that says what exists.
+/// Returns the declaration of a dotted key of a case. Of several, for topographies of different forms, the
+/// one that says what exists.
 pub(crate) fn declaration(key: &str) -> Option<&'static Key> {
     let is_bounded = |key: &&Key| matches!(key.exists, Exists::Within { .. });
     declarations(key).find(is_bounded).or_else(|| declarations(key).next())
@@ -68,7 +73,8 @@ pub(in crate::case) fn known_in(table: &Table<'_>) -> Result<()> {
 pub(crate) fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)> {
     let here = if table.is_empty() { "outside a table".to_owned() } else { format!("in [{table}]") };
     let name = declared(table);
-    // A key of the same name is rarely meant in a table that stands in place of a value and names one of several kinds.
+    // A key of the same name is rarely meant in a table that stands in place of a value and names one of
+    // several kinds.
     if sections(table).all(|section| !section.kind.is_empty()) {
         return None;
     }
@@ -91,7 +97,8 @@ pub(crate) fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)
     Some((format!("unknown key '{key}' {here}"), Some(hint)))
 }
 
-/// Returns an error if a key of the table belongs to a kind other than this one: `file`, `form = "sphere"`, `law = "arrhenius"`.
+/// Returns an error if a key of the table belongs to a kind other than this one: `file`, `form = "sphere"`,
+/// `law = "arrhenius"`.
 pub(in crate::case) fn suits(table: &Table<'_>, kind: &str) -> Result<()> {
     let is_layer = table.path().ends_with("plus]");
     let of_the_whole = |key: &str| {

@@ -1,4 +1,5 @@
-//! A field file under a temporary name on the disk. Arrays are written while others are added, so that only a few are in memory.
+//! A field file under a temporary name on the disk. Arrays are written while others are added, so that only a
+//! few are in memory.
 
 use std::path::{Path, PathBuf};
 
@@ -109,8 +110,8 @@ impl Packed {
 
 /// Bytes of arrays that are written together.
 const MAX_WAITING: usize = 1 << 24;
-/// Fields with fewer values are compressed by the library of the format, because a file of many fields should not be committed after
-/// each of them.
+/// Fields with fewer values are compressed by the library of the format, because a file of many fields should
+/// not be committed after each of them.
 const MIN_PACKED: usize = 1 << 19;
 /// Chunks that one node of the image of an array holds.
 const MAX_CHUNKS: u64 = 1 << 15;

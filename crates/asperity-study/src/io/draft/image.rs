@@ -1,8 +1,8 @@
-//! HDF5 file in memory with one array, whose chunks are packed already. `hdf5-pure` packs chunks on one thread, but copies those of
-//! another file as they are.
+//! HDF5 file in memory with one array, whose chunks are packed already. `hdf5-pure` packs chunks on one
+//! thread, but copies those of another file as they are.
 //!
-//! HDF5 File Format Specification, version 3.0: superblock of version 2, object headers of version 2, chunks in a B-tree of
-//! version 1.
+//! HDF5 File Format Specification, version 3.0: superblock of version 2, object headers of version 2, chunks
+//! in a B-tree of version 1.
 
 /// Name of the array.
 pub(super) const NAME: &str = "a";
@@ -12,8 +12,8 @@ const UNDEFINED: u64 = u64::MAX;
 /// Size of the superblock.
 const SUPERBLOCK: usize = 48;
 
-/// Creates the image of an array of numbers of double precision with this `shape`. Its `chunks` of this shape are in the order of
-/// their places, shuffled and deflated at `level`.
+/// Creates the image of an array of numbers of double precision with this `shape`. Its `chunks` of this shape
+/// are in the order of their places, shuffled and deflated at `level`.
 pub(super) fn image(shape: &[u64], chunk: &[u64], chunks: &[Vec<u8>], level: u32) -> Vec<u8> {
     let root_at = SUPERBLOCK;
     let array_at = root_at + root(0).len();

@@ -52,7 +52,8 @@ const DEFLATE_LEVEL: u32 = 2;
 fn chunk(shape: &[u64]) -> Vec<u64> {
     /// Number of values in a chunk.
     const VALUES: u64 = 1 << 17;
-    // From 2¹⁶ on hdf5-pure 0.47 stores the sizes of a chunk in 4 bytes where 3 are enough, which HDF5 2 rejects.
+    // From 2¹⁶ on hdf5-pure 0.47 stores the sizes of a chunk in 4 bytes where 3 are enough, which HDF5 2
+    // rejects.
     const MAX_CHUNK_SIDE: u64 = 1 << 15;
     match *shape {
         [nx, ny] => vec![(VALUES / ny).clamp(1, nx.min(MAX_CHUNK_SIDE)), ny.min(MAX_CHUNK_SIDE)],

@@ -1,4 +1,5 @@
-//! `python/asperity/errors.py`: an exception for each variant of the library's error, with its fields as attributes.
+//! `python/asperity/errors.py`: an exception for each variant of the library's error, with its fields as
+//! attributes.
 
 use asperity_base::error::Error;
 

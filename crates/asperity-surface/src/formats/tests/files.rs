@@ -1,7 +1,7 @@
 //! Files of instruments, built byte by byte: small ones for tests, large ones for the reading benchmark.
 //!
-//! `shape` is the number of heights along x and y, `data` are the heights as stored in the format. The pitch is 0.5 and
-//! 0.25 µm unless stated otherwise.
+//! `shape` is the number of heights along x and y, `data` are the heights as stored in the format. The pitch
+//! is 0.5 and 0.25 µm unless stated otherwise.
 
 /// Heights in metres, an even number per line; −1 is missing.
 pub(super) fn al3d([nx, ny]: [u32; 2], data: &[u8]) -> Vec<u8> {
@@ -130,7 +130,8 @@ pub(super) fn sdf(kind: u8, shape: [u16; 2], data: &[u8]) -> Vec<u8> {
     file
 }
 
-/// One of `objects` objects, with heights in units of 2 µm above 0.5 µm, 0.5 and 0.25 mm apart; −7 is missing.
+/// One of `objects` objects, with heights in units of 2 µm above 0.5 µm, 0.5 and 0.25 mm apart; −7 is
+/// missing.
 pub(super) fn sur(bits: u16, name: &str, objects: u16, [nx, ny]: [u32; 2], data: &[u8]) -> Vec<u8> {
     let header: [(usize, &[u8]); 17] = [
         (0, b"DIGITAL SURF"),

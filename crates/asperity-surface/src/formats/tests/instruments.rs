@@ -1,5 +1,5 @@
-//! Files of instruments, which are only read. They are built here byte by byte; measured ones are compared with other
-//! programs.
+//! Files of instruments, which are only read. They are built here byte by byte; measured ones are compared
+//! with other programs.
 
 use super::files::{al3d, floats, frt, metropro, opd, plu, tmd, words};
 use super::*;

@@ -1,4 +1,5 @@
-//! Measured files, compared with the heights that other programs read. `ASPERITY_TOPOGRAPHIES` names their folder.
+//! Measured files, compared with the heights that other programs read. `ASPERITY_TOPOGRAPHIES` names their
+//! folder.
 
 use super::*;
 
@@ -22,7 +23,8 @@ fn the_pits_of_a_measured_map_are_the_first_spikes_to_go() {
     let grid = Grid::new([563, 484], scan.pitch.unwrap()).unwrap();
     let measured = Topography::new(grid, scan.heights).unwrap();
     let cleared = measured.clone().despike(8.0).unwrap();
-    // 98 samples in a few pits, down to 1.25 µm, of a surface whose other samples lie within 0.1 µm of their mean.
+    // 98 samples in a few pits, down to 1.25 µm, of a surface whose other samples lie within 0.1 µm of their
+    // mean.
     let middle = measured.mean();
     let deep = |map: &Topography| map.heights().iter().filter(|z| **z < middle - 1e-7).count();
     assert_eq!([deep(&measured), deep(&cleared)], [98, 0]);

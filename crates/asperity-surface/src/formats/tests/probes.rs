@@ -1,5 +1,5 @@
-//! Files of scanning probe microscopes, which are only read. They are built here; measured ones are compared with other
-//! programs.
+//! Files of scanning probe microscopes, which are only read. They are built here; measured ones are compared
+//! with other programs.
 
 use super::files::{floats, words};
 use super::*;

@@ -54,7 +54,8 @@ const LIMITS: [[f64; 2]; 8] = [
     [f64::MIN, f64::MAX],
 ];
 
-/// Reads 1, `marker` and 3, stored as the type with this code in a file of this version, which must not lose 1 and 3.
+/// Reads 1, `marker` and 3, stored as the type with this code in a file of this version, which must not lose
+/// 1 and 3.
 fn between_1_and_3(version: &[u8; 7], kind: u8, marker: f64) -> f64 {
     let data = three(kind, marker);
     let mut bytes = sdf(kind, [3, 1], &data);

@@ -9,8 +9,8 @@ use crate::solver::site::Site;
 use crate::units::{Metre, Pascal};
 
 impl Block<'_> {
-    /// Computes h + u from the total pressure in double precision. Direction and response, which are no longer needed, free
-    /// memory for the transforms.
+    /// Computes h + u from the total pressure in double precision. Direction and response, which are no
+    /// longer needed, free memory for the transforms.
     pub(in crate::solver::active_set) fn convolve(&mut self) {
         (self.direction, self.response) = Default::default();
         touch_under(self.site, &self.pressure, &mut self.touch);
@@ -59,8 +59,8 @@ impl Block<'_> {
         self.add_to_feasible();
     }
 
-    /// Computes h + u of a feasible pressure with the operator itself, in single precision if its error is below
-    /// `max_rounding`. After the first time only the change of the pressure is convolved.
+    /// Computes h + u of a feasible pressure with the operator itself, in single precision if its error is
+    /// below `max_rounding`. After the first time only the change of the pressure is convolved.
     pub(in crate::solver::active_set) fn correct(&mut self, max_rounding: Metre) {
         self.near = false;
         let before = self.feasible_rounding;
@@ -77,8 +77,8 @@ impl Block<'_> {
         self.feasible_rounding = Some(self.rounding);
     }
 
-    /// Convolves the change since the last feasible pressure, whose error bound was `before`, and makes the present
-    /// pressure the last feasible one. Returns the new error bound.
+    /// Convolves the change since the last feasible pressure, whose error bound was `before`, and makes the
+    /// present pressure the last feasible one. Returns the new error bound.
     fn correct_change(&mut self, before: Metre) -> Metre {
         let bands = self.bands;
         let parts = bands.cut(flat(&self.pressure)).zip(bands.cut_mut(flat_mut(&mut self.feasible)));
@@ -157,8 +157,8 @@ impl Block<'_> {
         self.slab.merged(Largest(parts.into_iter().fold(0.0, f64::max))).0
     }
 
-    /// Returns the work Σ p (δ − h) of the pressure at an approach, and twice its elastic energy, Σ p u, both per
-    /// cell area.
+    /// Returns the work Σ p (δ − h) of the pressure at an approach, and twice its elastic energy, Σ p u, both
+    /// per cell area.
     pub(in crate::solver::active_set) fn work(&self, approach: Metre) -> [f64; 2] {
         let gap = self.site.initial_gap();
         let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));

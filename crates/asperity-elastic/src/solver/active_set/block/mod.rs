@@ -23,9 +23,9 @@ const NEAR_FIELD: usize = 4;
 
 /// One contact in the iteration: pressure, displacement, direction and residual of its cells.
 ///
-/// Pressure and displacement are in double precision. Directions and their responses are in single precision, which
-/// is sufficient for steps that are small compared with the values they correct. The error bound of the displacement
-/// includes them.
+/// Pressure and displacement are in double precision. Directions and their responses are in single precision,
+/// which is sufficient for steps that are small compared with the values they correct. The error bound of the
+/// displacement includes them.
 pub(super) struct Block<'a> {
     site: &'a dyn Site,
     /// The bands of rows for parallel work.
@@ -39,19 +39,21 @@ pub(super) struct Block<'a> {
     rounding: Metre,
     /// The last feasible pressure. The energy of feasible pressures only decreases.
     feasible: Field,
-    /// The approaches h + u under the last feasible pressure, during a line search from it, or always with a near copy.
+    /// The approaches h + u under the last feasible pressure, during a line search from it, or always with a
+    /// near copy.
     feasible_touch: Option<Field>,
     /// Whether search directions are convolved with the near copy of the operator.
     near: bool,
-    /// Error bound due to single precision of the residual under the last feasible pressure, if the operator itself
-    /// computed it.
+    /// Error bound due to single precision of the residual under the last feasible pressure, if the operator
+    /// itself computed it.
     feasible_rounding: Option<Metre>,
     /// The predicted set of each cell.
     sets: Sets,
     /// The search direction d.
     direction: SingleField,
-    /// The response C·d of the direction. Before the direction is known it holds the residual r of the free cells, and then the
-    /// preconditioned residual z = M r; during the prediction of sets the proposed pressures, and then the predicted residual.
+    /// The response C·d of the direction. Before the direction is known it holds the residual r of the free
+    /// cells, and then the preconditioned residual z = M r; during the prediction of sets the proposed
+    /// pressures, and then the predicted residual.
     response: SingleField,
     /// Largest |C·d|.
     max_response: f64,

@@ -29,8 +29,8 @@ impl Block<'_> {
         self.convolutions += 1;
     }
 
-    /// Returns slope and curvature of the energy, at an approach, along the line from the last feasible pressure
-    /// to the present one.
+    /// Returns slope and curvature of the energy, at an approach, along the line from the last feasible
+    /// pressure to the present one.
     pub(in crate::solver::active_set) fn descent(&self, approach: Metre) -> [f64; 2] {
         let before = self.feasible_touch.as_ref().expect("the feasible pressure is convolved");
         let bands = self.bands.cut(flat(&self.feasible)).zip(self.bands.cut(flat(before)));

@@ -1,4 +1,5 @@
-//! The passes of a block in an outer step: prediction of the sets, the step to the bounds, and conjugate gradients.
+//! The passes of a block in an outer step: prediction of the sets, the step to the bounds, and conjugate
+//! gradients.
 
 use std::ops;
 
@@ -14,8 +15,8 @@ use crate::solver::sets::Set;
 use crate::solver::{SINGLE_PRECISION, Settings};
 use crate::units::{Metre, Pascal};
 
-/// Norms after conjugate gradients on a set of free cells, as displacements: sums of squares for one contact, their
-/// roots for all contacts together.
+/// Norms after conjugate gradients on a set of free cells, as displacements: sums of squares for one contact,
+/// their roots for all contacts together.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::solver::active_set) struct ResidualNorms {
     /// Norm of the residual at the free cells.
@@ -109,8 +110,8 @@ impl Block<'_> {
         self.range_of(parts)
     }
 
-    /// Returns the sum of the proposed pressures after an offset and clipping, and the number of cells strictly
-    /// between their bounds.
+    /// Returns the sum of the proposed pressures after an offset and clipping, and the number of cells
+    /// strictly between their bounds.
     pub(in crate::solver::active_set) fn proposed_sum(&self, offset: Pascal) -> [f64; 2] {
         self.sum_within(&self.response, |y, bounds| within(f64::from(y) + offset, bounds))
     }
@@ -201,22 +202,22 @@ impl Block<'_> {
         });
     }
 
-    /// Replaces the predicted residual by the preconditioned one, z = M r, without the `mean` of r. Returns the sums Σ z, Σ r and
-    /// Σ r z over the free cells.
+    /// Replaces the predicted residual by the preconditioned one, z = M r, without the `mean` of r. Returns
+    /// the sums Σ z, Σ r and Σ r z over the free cells.
     pub(in crate::solver::active_set) fn precondition_predicted(&mut self, mean: f64) -> [f64; 3] {
         let parts = self.bands.cut_mut(flat_mut(&mut self.response)).zip(self.sets.in_bands());
         parallel::map(parts, |(r, free)| free.cells().for_each(|cell| r[cell] -= mean as f32));
         self.precondition()
     }
 
-    /// Replaces the residual of the free cells by the preconditioned one, z = M r. Returns the sums Σ z, Σ r and Σ r z over the
-    /// free cells.
+    /// Replaces the residual of the free cells by the preconditioned one, z = M r. Returns the sums Σ z, Σ r
+    /// and Σ r z over the free cells.
     pub(in crate::solver::active_set) fn precondition(&mut self) -> [f64; 3] {
         self.preconditioner.replace(&self.sets, flat_mut(&mut self.response))
     }
 
-    /// Sets the direction of the free cells to the damped preconditioned residual without its mean. Returns the sum of these
-    /// directions, and the sum of the pressures of the free cells above their lower bounds.
+    /// Sets the direction of the free cells to the damped preconditioned residual without its mean. Returns
+    /// the sum of these directions, and the sum of the pressures of the free cells above their lower bounds.
     pub(in crate::solver::active_set) fn direct_free_cells(&mut self, mean: f64, damping: f64) -> [f64; 2] {
         let (damping, mean) = (damping as f32, mean as f32);
         let (bands, bounds) = (self.bands, self.site.bounds());
@@ -237,8 +238,8 @@ impl Block<'_> {
         }))
     }
 
-    /// Subtracts from the direction of each free cell a uniform part, and a part in proportion to the pressure
-    /// above its lower bound, so that the direction preserves the load.
+    /// Subtracts from the direction of each free cell a uniform part, and a part in proportion to the
+    /// pressure above its lower bound, so that the direction preserves the load.
     pub(in crate::solver::active_set) fn balance_direction(&mut self, each: f64, per_pressure: f64) {
         let (bands, bounds) = (self.bands, self.site.bounds());
         let parts = bands.cut(flat(&self.pressure)).zip(bands.cut_mut(flat_mut(&mut self.direction)));
@@ -316,9 +317,9 @@ impl Block<'_> {
         }))
     }
 
-    /// Moves pressure and displacement by `step` times the direction. Replaces the response by the residual of the free cells,
-    /// whose gap closes at the approach `datum`, and zero for the others. Returns its norm and the norm of the violations of
-    /// the bounds.
+    /// Moves pressure and displacement by `step` times the direction. Replaces the response by the residual
+    /// of the free cells, whose gap closes at the approach `datum`, and zero for the others. Returns its norm
+    /// and the norm of the violations of the bounds.
     pub(in crate::solver::active_set) fn step_along_direction(
         &mut self,
         step: f64,
@@ -372,9 +373,9 @@ struct Step {
 }
 
 impl Step {
-    /// Moves the pressures and the approaches h + u of some cells along the direction `d` and its response `c`, which becomes
-    /// their residual. Adds their residuals and violations to the sums of squares of each lane, and to its largest residual.
-    /// The direction is zero except at the free cells.
+    /// Moves the pressures and the approaches h + u of some cells along the direction `d` and its response
+    /// `c`, which becomes their residual. Adds their residuals and violations to the sums of squares of each
+    /// lane, and to its largest residual. The direction is zero except at the free cells.
     #[inline]
     fn take<const N: usize>(
         &self,

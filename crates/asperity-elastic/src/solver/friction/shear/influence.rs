@@ -66,7 +66,8 @@ impl Influence {
         &self.displaced
     }
 
-    /// Computes the displacement of the `cells` under a shear on them in single precision, and its largest error.
+    /// Computes the displacement of the `cells` under a shear on them in single precision, and its largest
+    /// error.
     pub(super) fn displace_in_single(
         &mut self,
         operator: &mut dyn CoupledOperator,

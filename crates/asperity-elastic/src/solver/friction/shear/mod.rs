@@ -18,9 +18,10 @@ use influence::{Influence, at};
 use state::{Freedom, State};
 use steady::SteadySolver;
 
-/// Compliance in the prediction of stick and slip, as a multiple of the compliance of a single cell: the smallest
-/// complementarity parameter of a primal–dual active set. A cell with a large slip moves its neighbours too. With the
-/// value 1, nearly all of a smooth contact on a fine grid is first predicted to slip, and the prediction oscillates.
+/// Compliance in the prediction of stick and slip, as a multiple of the compliance of a single cell: the
+/// smallest complementarity parameter of a primal–dual active set. A cell with a large slip moves its
+/// neighbours too. With the value 1, nearly all of a smooth contact on a fine grid is first predicted to
+/// slip, and the prediction oscillates.
 const COMPLIANCE_FACTOR: f64 = 8.0;
 /// With each outer step without progress the factor is multiplied by this.
 const COMPLIANCE_GROWTH: f64 = 2.0;
@@ -30,10 +31,11 @@ const COMPLIANCE_REDUCTION: f64 = 0.5;
 const PROGRESS: f64 = 0.7;
 /// Number of consecutive outer steps without progress before projected gradient steps.
 const MAX_STAGNATIONS: usize = 4;
-/// After the projected gradient steps the smallest residual is multiplied by this factor, so that the next outer step
-/// may increase it a little.
+/// After the projected gradient steps the smallest residual is multiplied by this factor, so that the next
+/// outer step may increase it a little.
 const BEST_AFTER_GRADIENT: f64 = 2.0;
-/// The displacement is computed again in double precision if its rounding exceeds this fraction of the residual.
+/// The displacement is computed again in double precision if its rounding exceeds this fraction of the
+/// residual.
 const ROUNDING_SHARE: f64 = 0.01;
 /// Largest number of conjugate gradient steps on one prediction of stick and slip.
 const MAX_CG_STEPS: usize = 60;
@@ -46,8 +48,8 @@ const CG_TOLERANCE: f64 = 0.5;
 /// Number of consecutive projected gradient steps.
 const GRADIENT_STEPS: usize = 5;
 
-/// The tangential problem: |q| ≤ g in each cell. If |q| < g, the slip s = D + b − T q is zero; otherwise s points
-/// along q. The solution minimises ½ qᵀTq − qᵀ(D + b) over the discs.
+/// The tangential problem: |q| ≤ g in each cell. If |q| < g, the slip s = D + b − T q is zero; otherwise s
+/// points along q. The solution minimises ½ qᵀTq − qᵀ(D + b) over the discs.
 #[derive(Clone, Copy)]
 pub(super) struct Task<'a> {
     /// Largest shear g of each cell, Pa.
@@ -110,12 +112,12 @@ pub(super) fn method(history: &History, operator: &mut dyn CoupledOperator) -> B
     }
 }
 
-/// Solves tangential problems on one grid by a semismooth Newton iteration. It predicts the cells that stick, and the
-/// cells that slip, whose shear may only turn. Preconditioned conjugate gradients then solve for these freedoms. The
-/// projection of the tractions onto their discs is deferred to the next prediction.
+/// Solves tangential problems on one grid by a semismooth Newton iteration. It predicts the cells that stick,
+/// and the cells that slip, whose shear may only turn. Preconditioned conjugate gradients then solve for
+/// these freedoms. The projection of the tractions onto their discs is deferred to the next prediction.
 ///
-/// Directions and their responses are in single precision, and their sums in double precision. The residual includes
-/// the possible error of single precision.
+/// Directions and their responses are in single precision, and their sums in double precision. The residual
+/// includes the possible error of single precision.
 struct ShearSolver {
     cell_area: SquareMetre,
     influence: Influence,
@@ -205,7 +207,8 @@ impl ShearSolver {
         state.rounding = 0.0;
     }
 
-    /// Computes the displacement of the cells under a `direction` of their shear, in single precision, and its largest error.
+    /// Computes the displacement of the cells under a `direction` of their shear, in single precision, and
+    /// its largest error.
     fn convolve(
         &mut self,
         operator: &mut dyn CoupledOperator,
@@ -271,8 +274,8 @@ impl ShearSolver {
         }
     }
 
-    /// Computes the preconditioned residual by the inverse of the influence. Slipping cells are scaled on both
-    /// sides by the square root of their own compliance over the compliance including slip. If the slip
+    /// Computes the preconditioned residual by the inverse of the influence. Slipping cells are scaled on
+    /// both sides by the square root of their own compliance over the compliance including slip. If the slip
     /// compliance dominates, the diagonal is used.
     fn precondition(&mut self, state: &State, residual: &[Vector]) -> Vec<Vector> {
         let compliance = self.influence.compliance;
@@ -291,8 +294,8 @@ impl ShearSolver {
         z
     }
 
-    /// Performs projected gradient steps with an exact line search, from the tractions in their discs. Each step
-    /// lowers the energy.
+    /// Performs projected gradient steps with an exact line search, from the tractions in their discs. Each
+    /// step lowers the energy.
     fn projected_gradient(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
         if state.project() {
             self.respond(operator, state);

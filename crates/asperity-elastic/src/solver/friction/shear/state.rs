@@ -10,11 +10,11 @@ use crate::units::{Metre, SquareMetre};
 
 /// Shear below this fraction of its limit is inside its disc, not on the rim.
 const INSIDE_RIM: f64 = 1.0 - 1e-12;
-/// A slipping cell whose [`Freedom::slip_compliance`] exceeds this multiple of its own compliance hardly turns. Its
-/// block of the Newton matrix is treated as diagonal.
+/// A slipping cell whose [`Freedom::slip_compliance`] exceeds this multiple of its own compliance hardly
+/// turns. Its block of the Newton matrix is treated as diagonal.
 const DIAGONAL_DOMINANCE: f64 = 3.0;
-/// Complementarity parameter of a cell whose slip does not depend on its shear, relative to the compliance of a cell.
-/// It is so small that any slip takes the cell to its limit.
+/// Complementarity parameter of a cell whose slip does not depend on its shear, relative to the compliance of
+/// a cell. It is so small that any slip takes the cell to its limit.
 const UNYIELDING_SHARE: f64 = 1e-9;
 /// Relative tolerance of the sum of the shear after a projection.
 const SUM_ACCURACY: f64 = 1e-12;
@@ -132,8 +132,8 @@ impl State {
         self.unyielding.as_ref().is_some_and(|cells| cells[k])
     }
 
-    /// Returns the complementarity parameter of a cell: the compliance of a single cell, or a small value if its
-    /// slip does not depend on the shear.
+    /// Returns the complementarity parameter of a cell: the compliance of a single cell, or a small value if
+    /// its slip does not depend on the shear.
     fn parameter(&self, k: usize, compliance: f64) -> f64 {
         if self.is_unyielding(k) { UNYIELDING_SHARE * compliance } else { compliance }
     }
@@ -158,8 +158,8 @@ impl State {
         onto_disc(self.proposed(k, compliance), self.limit[k])
     }
 
-    /// Under force control, sets the rigid-body displacement D at which the projected shear carries the force. No
-    /// cell is unyielding.
+    /// Under force control, sets the rigid-body displacement D at which the projected shear carries the
+    /// force. No cell is unyielding.
     pub(super) fn find_rigid_displacement(&mut self, compliance: f64) {
         let Some(wanted) = self.wanted else { return };
         let start = times(1.0 / compliance, self.rigid);
@@ -177,8 +177,8 @@ impl State {
         (0..self.cells.len()).map(phi).fold(0.0, |m, phi| if phi > m || phi.is_nan() { phi } else { m })
     }
 
-    /// Returns the larger of two relative residuals: max|q − P(q + s/c)| over the largest shear, and the missing
-    /// force over the sum of the shears of all cells.
+    /// Returns the larger of two relative residuals: max|q − P(q + s/c)| over the largest shear, and the
+    /// missing force over the sum of the shears of all cells.
     pub(super) fn relative_residual(&self, compliance: f64) -> f64 {
         let largest =
             |most: f64, k| most.max(length(self.shear[k])).max(length(self.projected(k, compliance)));
@@ -204,7 +204,8 @@ impl State {
         if change == 0.0 { 0.0 } else { change / most.max(change) }
     }
 
-    /// Projects the tractions onto their discs, and under force control onto the force. Returns whether any has changed.
+    /// Projects the tractions onto their discs, and under force control onto the force. Returns whether any
+    /// has changed.
     pub(super) fn project(&mut self) -> bool {
         let mut moved = false;
         for (q, limit) in self.shear.iter_mut().zip(&self.limit) {
@@ -249,9 +250,9 @@ impl State {
         }
     }
 
-    /// Returns the step that takes the cells predicted to slip to the rims of their discs, in the direction of
-    /// their slip. Under force control all freedoms compensate the change of the force. Returns none if all cells
-    /// are already there.
+    /// Returns the step that takes the cells predicted to slip to the rims of their discs, in the direction
+    /// of their slip. Under force control all freedoms compensate the change of the force. Returns none if
+    /// all cells are already there.
     pub(super) fn direction_to_rims(&self) -> Option<Vec<Vector>> {
         let mut direction: Vec<Vector> = self
             .cells()
@@ -271,7 +272,8 @@ impl State {
         direction.iter().any(|d| *d != [0.0; 2]).then_some(direction)
     }
 
-    /// Returns the residual of the Newton equations along the freedoms; under force control without its net force.
+    /// Returns the residual of the Newton equations along the freedoms; under force control without its net
+    /// force.
     pub(super) fn newton_residual(&self) -> Vec<Vector> {
         let mut left: Vec<Vector> = (0..self.cells.len()).map(|k| self.newton_residual_of(k)).collect();
         self.balance(&mut left);
@@ -285,7 +287,8 @@ impl State {
         freedom.part(minus(self.slip(k), along_shear))
     }
 
-    /// Under force control, moves the rigid bodies so that the residual of the Newton equations has no net force.
+    /// Under force control, moves the rigid bodies so that the residual of the Newton equations has no net
+    /// force.
     pub(super) fn balance_rigid_displacement(&mut self) {
         if self.wanted.is_some() {
             let net = (0..self.cells.len()).fold([0.0; 2], |sum, k| add(sum, self.newton_residual_of(k)));

@@ -1,5 +1,5 @@
-//! The tangential problem of steady rolling: shear tractions under which the material that passes through the contact sticks or
-//! slips.
+//! The tangential problem of steady rolling: shear tractions under which the material that passes through the
+//! contact sticks or slips.
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
@@ -15,8 +15,8 @@ use crate::units::SquareMetre;
 use asperity_base::math::active_set::TOLERANCE_REDUCTION;
 use asperity_base::watch::check_stop;
 
-/// Largest number of consecutive Newton steps without progress. The first steps may increase the residual: in initial
-/// full stick the shear is large at the trailing edge.
+/// Largest number of consecutive Newton steps without progress. The first steps may increase the residual: in
+/// initial full stick the shear is large at the trailing edge.
 const MAX_STAGNATIONS: usize = 8;
 /// The Newton equations are solved to this fraction of their residual.
 const REDUCTION: f64 = 0.1;
@@ -57,26 +57,27 @@ const CONTRACTING_WEIGHT: f64 = 3.0;
 /// Largest number of projected steps in a proximal step.
 const MAX_PROJECTED_STEPS: usize = 50;
 
-/// Solves tangential problems of steady rolling on one grid. While the contact moves by one cell, the material of the
-/// next cell arrives with its displacement S T q, and slips by
+/// Solves tangential problems of steady rolling on one grid. While the contact moves by one cell, the
+/// material of the next cell arrives with its displacement S T q, and slips by
 ///
 /// ```text
 /// Δs = D + b − (1 − S) T q
 /// ```
 ///
 /// The slip is zero if |q| < g, and otherwise points along q. The matrix (1 − S) T is not symmetric, but its
-/// symmetric part is positive, so that this variational inequality has a unique solution. The iteration is that of
+/// symmetric part is positive, so that this variational inequality has a unique solution. The iteration is
+/// that of
 /// [`ShearSolver`]: after each prediction of stick and slip it solves Newton's equations, here by GMRES.
 ///
-/// The preconditioner follows the material. For single cells a Newton step Δq causes the displacement u = c Δq, and
-/// (u − S u) + κ Δq = r is solved along each line from the leading edge. The approximate inverse of the [`Influence`]
-/// gives the shear for this u.
+/// The preconditioner follows the material. For single cells a Newton step Δq causes the displacement u = c
+/// Δq, and (u − S u) + κ Δq = r is solved along each line from the leading edge. The approximate inverse of
+/// the [`Influence`] gives the shear for this u.
 ///
-/// Newton's iteration may not converge. It never converges if all cells of a line along the rolling touch under a
-/// periodic boundary, because their uniform shear causes no slip and the matrix is singular. The proximal point
-/// method (Rockafellar, SIAM J. Control Optim. 14, 877 (1976)) converges for any monotone matrix. It adds a weight
-/// times c (q − q₀) to the displacement and solves this problem. The solution is the next q₀, until the added term
-/// vanishes.
+/// Newton's iteration may not converge. It never converges if all cells of a line along the rolling touch
+/// under a periodic boundary, because their uniform shear causes no slip and the matrix is singular. The
+/// proximal point method (Rockafellar, SIAM J. Control Optim. 14, 877 (1976)) converges for any monotone
+/// matrix. It adds a weight times c (q − q₀) to the displacement and solves this problem. The solution is the
+/// next q₀, until the added term vanishes.
 pub(super) struct SteadySolver {
     cell_area: SquareMetre,
     influence: Influence,
@@ -246,8 +247,8 @@ impl SteadySolver {
         Err(self.not_converged(residual, task))
     }
 
-    /// Solves the problem with its proximal term by Newton's iteration. If this stagnates under a large weight,
-    /// projected steps follow, which are then a contraction. Returns whether it has converged.
+    /// Solves the problem with its proximal term by Newton's iteration. If this stagnates under a large
+    /// weight, projected steps follow, which are then a contraction. Returns whether it has converged.
     fn proximal_step(
         &mut self,
         operator: &mut dyn CoupledOperator,
@@ -344,8 +345,8 @@ impl SteadySolver {
         }
     }
 
-    /// Returns, for each cell, the index in the list of the cell whose material arrives there, if this cell is in
-    /// contact and later in the list.
+    /// Returns, for each cell, the index in the list of the cell whose material arrives there, if this cell
+    /// is in contact and later in the list.
     fn cells_ahead(&self, state: &State) -> Vec<Option<usize>> {
         state
             .cells
@@ -359,8 +360,8 @@ impl SteadySolver {
             .collect()
     }
 
-    /// Predicts the freedoms of the cells, solves their Newton equations to this `reduction` of their residual,
-    /// and computes the response to the new shear. Returns whether the equations have a solution.
+    /// Predicts the freedoms of the cells, solves their Newton equations to this `reduction` of their
+    /// residual, and computes the response to the new shear. Returns whether the equations have a solution.
     fn newton_step(
         &mut self,
         operator: &mut dyn CoupledOperator,
@@ -448,8 +449,8 @@ impl SteadySolver {
     }
 }
 
-/// Returns the number of further steps in the sum of a geometric series, from its last and its present term; 0 for
-/// none.
+/// Returns the number of further steps in the sum of a geometric series, from its last and its present term;
+/// 0 for none.
 fn extrapolation(last: &[Vector], present: &[Vector]) -> f64 {
     let product = |a: &[Vector], b: &[Vector]| a.iter().zip(b).map(|(a, b)| dot(*a, *b)).sum::<f64>();
     let (along, last, present) = (product(last, present), product(last, last), product(present, present));
