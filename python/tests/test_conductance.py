@@ -1,4 +1,4 @@
-"""Conductance: its numbers, arguments and copies."""
+"""Conductance against closed forms."""
 
 import math
 import pickle
@@ -21,22 +21,34 @@ def test_a_round_spot_conducts_twice_its_radius():
     radius = math.sqrt(ROUND.sum() / math.pi) * 1e-6
     assert found.conductance == pytest.approx(2 * 46 * radius, rel=1e-2)
     assert found.resistance == pytest.approx(1 / found.conductance, rel=1e-12)
+    # The joint is what the spot adds to the resistance of the whole grid.
     joint = found.resistance - found.full_resistance
     assert found.joint_conductance == pytest.approx(1 / (joint * (64e-6) ** 2), rel=1e-12)
     assert found.holm_greenwood == pytest.approx(1 / (2 * 46 * radius), rel=1e-12)
     assert (found.spots, found.spot_share, found.gas_share, found.film_share) == (1, 1.0, 0.0, 0.0)
     assert found.median_cells == ROUND.sum()
     assert 1e-12 * found.flux.sum() == pytest.approx(found.conductance, rel=1e-6)
+    assert (found.flux[ROUND] > 0).all() and (found.flux[~ROUND] == 0).all()
+    # All of the grid conducts better: a square of 64 µm has 1.1523 κ times its side.
+    assert 1 / found.full_resistance == pytest.approx(math.pi * 0.36678916 * 46 * 64e-6, rel=1e-2)
     assert found.residual <= 1e-6 and 0 < found.iterations < 40
 
 
-def test_a_conductivity_is_one_or_two():
-    assert disc(conductivity=[46.0, "inf"]).conductance == pytest.approx(2 * disc().conductance, rel=1e-9)
+def test_bodies_conduct_in_series():
+    assert disc(conductivity=[46.0, math.inf]).conductance == pytest.approx(2 * disc().conductance, rel=1e-9)
+    assert disc(conductivity=(30.0, "60 W/(m K)")).conductance == pytest.approx(
+        disc(conductivity=40.0).conductance, rel=1e-9
+    )
 
 
-def test_a_film_takes_its_share():
+def test_a_film_adds_its_resistance_and_more():
+    area = ROUND.sum() * 1e-12
     film = disc(film="1e-4 m2 K/W")
-    assert film.film_share == pytest.approx(1e-4 / (ROUND.sum() * 1e-12) / film.resistance, rel=1e-3)
+    radius = math.sqrt(area / math.pi)
+    uniform = 16 / (3 * math.pi**2 * 46 * radius)
+    assert film.resistance - 1e-4 / area == pytest.approx(uniform, rel=1e-2)
+    assert film.film_share == pytest.approx(1e-4 / area / film.resistance, rel=1e-3)
+    assert film.film_share > 0.5
 
 
 def test_an_even_gap_of_gas_is_in_series_with_its_jump():
@@ -55,6 +67,9 @@ def test_no_contact_and_full_contact_have_an_answer():
     full = asp.conductance(np.ones((4, 4)), pitch=1e-6, conductivity=46, boundary="periodic")
     assert (full.conductance, full.resistance, full.flux) == (None, None, None)
     assert repr(full) == "<Conductance: no resistance, 1 spot>"
+    for shape in ((1, 1), (1, 7)):
+        found = asp.conductance(np.ones(shape), pitch=1e-6, conductivity=46, boundary=["free", "periodic"])
+        assert found.conductance > 0
 
 
 def test_electricity_has_its_own_units():

@@ -16,12 +16,17 @@ from conftest import rough
 Pair = tuple[asp.Body, asp.Body]
 
 
-def test_the_numbers_of_a_contact_are_in_si() -> None:
-    steel = asp.Material("210 GPa", 0.3)
-    c = asp.contact(asp.form.flat((64, 64), pitch="8 um"), asp.form.sphere("10 mm"), steel, steel, load="10 N")
-    hertz = asp.reference.HertzSphere("10 mm", asp.composite_modulus(steel, steel), 10.0)
-    assert (c.max_pressure, c.approach) == pytest.approx((hertz.peak_pressure(), hertz.approach()), rel=0.02)
-    assert c.load == pytest.approx(10.0, rel=1e-9) == c.pressure.sum() * 64e-12 and c.residual < 1e-6
+def test_a_ball_on_a_plane_is_hertz_contact() -> None:
+    steel, radius, load = asp.Material("210 GPa", 0.3), 10e-3, 10.0
+    plane = asp.form.flat((128, 128), pitch="5 um")
+    c = asp.contact(plane, asp.form.sphere(radius), steel, steel, load=load)
+    modulus = 210e9 / (1 - 0.3**2) / 2
+    peak = (6 * load * modulus**2 / (np.pi**3 * radius**2)) ** (1 / 3)
+    approach = (9 * load**2 / (16 * radius * modulus**2)) ** (1 / 3)
+    assert c.max_pressure == pytest.approx(peak, rel=0.01)
+    assert c.approach == pytest.approx(approach, rel=0.01)
+    assert c.load == pytest.approx(load, rel=1e-9) == c.pressure.sum() * 25e-12
+    assert c.residual < 1e-6
 
 
 def test_fields_have_unit_pitch_and_origin(pair: Pair) -> None:
@@ -166,15 +171,21 @@ def test_what_is_to_be_wary_of_is_a_warning(steel: asp.Material) -> None:
 @pytest.mark.parametrize(
     ("arguments", "told", "kind"),
     [
+        ({"load": -2.0}, "'load' is -2", ValueError),
         ({"load": 0}, "'load' is 0", ValueError),
         ({"load": "2 kg"}, "unknown unit 'kg' in 'load'", ValueError),
+        ({"load": "2"}, "'load'", ValueError),
         ({"load": float("nan")}, "'load' is nan", ValueError),
         ({"load": object()}, "'load' is of type object, expected", TypeError),
         ({}, "no load is given, expected one of the arguments load, mean_pressure, approach, loads", ValueError),
         ({"load": 1e-3, "approach": 1e-9}, "both 'approach' and 'load' are given", ValueError),
         ({"load": 1e-3, "boundary": "open"}, "'boundary' is \"open\"", ValueError),
+        ({"load": 1e-3, "method": "magic"}, "'method' is \"magic\"", ValueError),
+        ({"load": 1e-3, "tolerance": 2}, "'tolerance' is 2", ValueError),
         ({"load": 1e-3, "friction": -0.1}, "'coefficient' is -0.1", ValueError),
         ({"load": 1e-3, "friction": {"coefficent": 0.1}}, "unknown key 'coefficent'", ValueError),
+        ({"load": 1e-3, "threads": 0}, "'threads' is 0, expected a whole number from 1 to 1024", ValueError),
+        ({"load": 1e-3, "threads": 1.5}, "'threads' is 1.5", ValueError),
         ({"load": 1e-3, "subsurface": {"to": "5 um"}}, "'subsurface' needs 'out'", ValueError),
         ({"load": 1e-3, "resume": True}, "'resume' needs 'out'", ValueError),
         ({"load": 1e6}, "exceeds the plastic limit", RuntimeError),
@@ -254,7 +265,12 @@ def test_smooth_forms_have_their_closed_form_beside_them(tmp_path: pathlib.Path)
     steel = asp.Material(young="210 GPa", poisson=0.3)
     ball, plane = asp.form.sphere("10 mm"), asp.form.flat((64, 64), pitch="4 um")
     contact = asp.contact(plane, ball, steel, steel, load="10 N")
-    assert contact.closed_form["theory"] == "hertz-point" and "deviation from theory" in contact._repr_html_()
+    hertz = asp.reference.HertzSphere("10 mm", asp.composite_modulus(steel, steel), 10.0)
+    assert contact.closed_form["theory"] == "hertz-point"
+    assert contact.closed_form["theory_max_pressure"] == pytest.approx(hertz.peak_pressure())
+    deviation = contact.max_pressure / hertz.peak_pressure() - 1.0
+    assert contact.closed_form["max_pressure_deviation"] == pytest.approx(deviation) and abs(deviation) < 0.01
+    assert "deviation from theory" in contact._repr_html_()
     written = asp.contact(plane, ball, steel, steel, load="10 N", out=tmp_path / "ball", progress=False)
     assert written.closed_form == contact.closed_form
     soft = asp.Material(young="210 GPa", poisson=0.3, hardness="0.5 GPa")
@@ -275,7 +291,10 @@ def test_a_force_distance_curve_has_its_pull_off(tmp_path: pathlib.Path) -> None
     approach, load = c.curve
     assert len(load) == len(c.increments) == 14 and (approach == c.increments["approach"]).all()
     assert c.adhesion is not None and c.adhesion["pull_off"] == load[np.argmax(approach) :].min() < 0.0
-    assert c.adhesion["tabor"] > 0.0
+    modulus = 1 / ((1 - 0.4**2) / 1e9 + (1 - 0.17**2) / 70e9)
+    assert c.adhesion["tabor"] == pytest.approx((40e-9 * 0.08**2 / (modulus**2 * 0.6e-9**3)) ** (1 / 3), rel=0.1)
+    # Between those of long and of short attraction, DMT and JKR, as far as the coarse grid allows.
+    assert 1.4 < -c.adhesion["pull_off"] / (np.pi * 0.08 * 40e-9) < 2.1
     assert c.adhesion["work_of_separation"] > 0.0 and c.max_pressure == 0.0 and c.contact_fraction == 0.0
     assert "pull-off" in c._repr_html_()
     written = sticking(approach="-4 nm", history=path, out=tmp_path / "out")

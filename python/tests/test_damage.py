@@ -21,11 +21,18 @@ MOVING = "".join(
     for body, seed in (("lower", 1), ("upper", 2))
 )
 KINDS = {
-    "static": BALL + '[contact]\nload = "5 mN"\n[subsurface]\nto = "5 um"\nlayers = 3\n',
+    "rest": BALL + '[contact]\nload = "5 mN"\n[subsurface]\nto = "5 um"\nlayers = 3\n',
+    "stages": BALL + '[contact]\nload = "5 mN"\n[friction]\ncoefficient = 0.3\n[[history]]\nforce = "0.5 mN"\nincrements = 2\n',
+    "rolling": BALL + '[contact]\nload = "5 mN"\n[friction]\ncoefficient = 0.3\ncreepage = [2e-3, 0.0]\n',
+    "sweep": BALL + '[contact]\nloads = ["5 mN", "8 mN"]\n[output]\npressure_every = 1\n',
+    "in place": BALL
+    + 'wear = { coefficient = 1e-13 }\n[contact]\nload = "5 mN"\n[friction]\ncoefficient = 0.1\n'
+    + '[sliding]\ndistance = "10 mm"\nupdates = 3\n',
     "passes": MOVING
     + '[contact]\nload = "20 mN"\n[motion]\npasses = 2\nstride = 8\n[subsurface]\nto = "5 um"\nlayers = 3\n',
-}
-"""The command's test of damaged results has every kind."""
+    "plastic": BALL.replace("[upper]", 'plasticity = { yield_stress = "0.3 GPa" }\n[upper]').replace("[12, 12]", "[8, 8]")
+    + '[contact]\nload = "5 mN"\n[plasticity]\ndepth = "4 um"\nlayers = 3\nincrements = 2\n',
+}  # fmt: skip
 
 
 def everything(directory: pathlib.Path) -> None:
@@ -58,7 +65,10 @@ def test_damaged_results_raise_an_error_that_names_the_file(kind: str, tmp_path:
     refused = set()
     for file in files:
         content = (whole / file).read_bytes()
-        damages: dict[str, Any] = {"removed": None, "cut off": content[: len(content) // 2], "a number": b"3", "nothing": b"null"}
+        damages: dict[str, Any] = {
+            "removed": None, "emptied": b"", "cut off": content[: len(content) // 2], "a number": b"3", "a line": b"3\n",
+            "a list": b"[1, 2]", "nothing": b"null",
+        }  # fmt: skip
         for how, damage in damages.items():
             out = tmp_path / "out"
             shutil.copytree(whole, out)
@@ -80,7 +90,8 @@ def test_damaged_results_raise_an_error_that_names_the_file(kind: str, tmp_path:
     assert refused | spare >= {str(file) for file in files}, "what is damaged goes unseen"
 
 
-@pytest.mark.parametrize("case", ["3", '{"motion": {"passes": "two"}}', '{"contact": 3}', "null"])
+@pytest.mark.parametrize("case", ["3", "[]", '{"motion": {}}', '{"motion": {"passes": "two"}}', '{"motion": 3}', '{"title": 3}',
+                                  '{"contact": 3}', '"text"', "null"])  # fmt: skip
 def test_a_case_that_is_none_is_named(case: str, tmp_path: pathlib.Path) -> None:
     (tmp_path / "case.json").write_text(case)
     with pytest.raises(errors.AsperityError, match=r"case\.json"):

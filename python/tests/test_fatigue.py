@@ -1,6 +1,8 @@
-"""Dang Van's criterion: its shapes, units and arguments."""
+"""Dang Van's criterion against NumPy, and what it says of arguments."""
 
 from __future__ import annotations
+
+import itertools
 
 import asperity as asp
 import numpy as np
@@ -15,24 +17,51 @@ def pressures(positions: int = 6, shape: tuple[int, int] = (6, 5)) -> np.ndarray
     return 1e9 * np.maximum(random, 0)
 
 
-def test_each_number_has_its_shape_and_unit():
+def ball(points: np.ndarray) -> tuple[np.ndarray, float]:
+    """The smallest of the balls through up to six points that leave none out."""
+    best: tuple[np.ndarray, float] = (points[0], np.inf)
+    for count in range(1, min(6, len(points)) + 1):
+        for chosen in itertools.combinations(points, count):
+            edges = np.array(chosen[1:]).reshape(-1, 5) - chosen[0]
+            weights = np.linalg.lstsq(2 * edges @ edges.T, (edges**2).sum(1), rcond=None)[0] if len(edges) else np.zeros(0)
+            centre = chosen[0] + weights @ edges
+            radius = np.linalg.norm(chosen[0] - centre)
+            if radius < best[1] and np.linalg.norm(points - centre, axis=1).max() <= radius * (1 + 1e-9):
+                best = (centre, radius)
+    return best
+
+
+def test_f_is_that_of_the_smallest_ball_around_the_deviators():
     found = asp.fatigue(pressures(), [0.0, 1e-6], pitch="1 um", friction=0.2, **LIMITS)
     assert found.weight == pytest.approx(0.25) and found.limit == 350e6
-    assert found.f.shape == found.radius.shape == found.shear_amplitude.shape == (2, 6, 5)
     each = [
         asp.stress(p, [0.0, 1e-6], pitch="1 um", poisson=0.3, boundary="periodic", shear=(0.2 * p, None)) for p in pressures()
     ]
-    xz = np.array([stress.xz for stress in each])
-    assert found.shear_amplitude == pytest.approx(np.ptp(xz, axis=0) / 2, rel=1e-9)
-    assert found.most.value == found.f.max() and found.to_xarray()["f"].shape == found.f.shape
+    for cell in [(0, 0, 0), (1, 3, 2), (0, 5, 4)]:
+        s = np.array([[stress[name][cell] for name in ("xx", "yy", "zz", "yz", "xz", "xy")] for stress in each])
+        xx, yy, zz, yz, xz, xy = s.T
+        mean = (xx + yy + zz) / 3
+        root = np.sqrt(2)
+        points = np.stack([(xx - yy) / root, np.sqrt(1.5) * (zz - mean), root * xy, root * yz, root * xz], axis=1)
+        centre, radius = ball(points / 1e9)
+        d = points - 1e9 * centre
+        szz = d[:, 1] / np.sqrt(1.5)
+        sxx, syy = d[:, 0] / root - szz / 2, -d[:, 0] / root - szz / 2
+        shear = asp.Stress(sxx, syy, szz, d[:, 3] / root, d[:, 4] / root, d[:, 2] / root).max_shear
+        assert found.f[cell] == pytest.approx((shear + 0.25 * mean).max(), rel=1e-7)
+        assert found.radius[cell] == pytest.approx(1e9 * radius, rel=1e-8)
+        assert found.shear_amplitude[cell] == pytest.approx(np.ptp(xz) / 2, rel=1e-12)
 
 
 def test_damage_and_the_wear_that_is_faster():
     found = asp.fatigue(pressures(), [0.5e-6, 1e-6, 2e-6], pitch="1 um", **LIMITS)
+    damage = found.damage(10, 2e6)
     over = np.maximum(found.over_limit, 0)
-    assert found.damage(10, 2e6) == pytest.approx(over**10 / 2e6)
+    assert damage == pytest.approx(over**10 / 2e6)
+    integral = 0.5e-6 * damage[0] + np.trapezoid(damage, [0.5e-6, 1e-6, 2e-6], axis=0)
+    assert found.critical_wear(10, 2e6) == pytest.approx(integral)
     assert np.all(found.damage(10, 2e6, endurance=True)[over < 1] == 0)
-    assert found.critical_wear(10, 2e6).shape == found.f.shape[1:]
+    assert found.most.value == found.f.max() and found.to_xarray()["f"].shape == found.f.shape
 
 
 def test_the_upper_body_is_the_mirror_image():
@@ -94,6 +123,9 @@ def test_a_run_tells_where_its_bodies_tire() -> None:
     assert list(run.fatigue) == ["lower"]
     found = run.fatigue["lower"]
     assert list(found["pass"]) == [1, 2]
+    # The passes of elastic bodies are alike, and damage adds up.
+    assert found["damage"][1] == pytest.approx(2 * found["damage_of_pass"][0], rel=1e-4)
+    assert found["life"][1] == pytest.approx(1 / found["damage_of_pass"][0], rel=1e-4)
     # The same from the pressures of a pass.
     for each in asp.Simulation(rough(1), rough(2), passes=1, stride=2, **keywords):
         depths = np.geomspace(0.5e-6, 4e-6, 3)

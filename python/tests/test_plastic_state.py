@@ -22,15 +22,17 @@ def pressed(**more: object) -> asp.Contact:
 
 
 @pytest.mark.filterwarnings("ignore")
-def test_a_contact_has_the_state_of_its_bodies(tmp_path: pathlib.Path) -> None:
+def test_a_ball_leaves_a_dent_and_what_flows_keeps_its_volume(tmp_path: pathlib.Path) -> None:
     contact = pressed()
     assert list(contact.plastic_state) == ["lower"]
     state = contact.plastic_state["lower"]
     assert state.strain.shape == state.residual_stress.shape == (6, 24, 24, 8) and state.accumulated.shape == (24, 24, 8)
+    assert np.abs(state.strain[:3].sum(axis=0)).max() < 1e-12
     assert state.accumulated.max() == contact.numbers["max_plastic_strain"]
     assert state.back_stress is not None and state.back_stress.shape == (6, 24, 24, 8)
     assert np.allclose(contact.lower.heights, -state.displacement, atol=1e-18)
     assert contact.numbers["residual_stored_energy"] > 0.0
+    assert contact.increments["plastic_work"].sum() == pytest.approx(contact.numbers["residual_plastic_work"])
     # The same from the results, and as a case file has it.
     kept = pressed(out=tmp_path / "out")
     assert (kept.plastic_state, kept.numbers, kept.fields) == (contact.plastic_state, contact.numbers, contact.fields)
@@ -63,6 +65,7 @@ def test_a_ball_rolls_pass_after_pass(tmp_path: pathlib.Path) -> None:
     assert list(run.plastic_state()) == ["lower"] and state.strain.shape == (6, 24, 12, 6)
     assert state.accumulated.max() == run.passes["max_plastic_strain_lower"][1] > 0.0
     assert np.allclose(run.lower().heights, -state.displacement, atol=1e-18)
+    assert (run.passes["plastic_work_lower"] > 0.0).all() and (run.passes["plastic_work_upper"] == 0.0).all()
     assert run.steps["products"].sum() > 24 and run.regime in {"undecided", "shakes-down"}
     with pytest.raises(OSError, match="plasticity-0001"):
         run.plastic_state(1)
@@ -72,8 +75,9 @@ def test_a_ball_rolls_pass_after_pass(tmp_path: pathlib.Path) -> None:
 
 
 @pytest.mark.filterwarnings("ignore")
-def test_elasto_plastic_bodies_take_friction() -> None:
+def test_what_flows_sticks_and_slips() -> None:
     contact = pressed(friction={"coefficient": 0.3, "force": ["2 N", 0]})
     assert {"traction_x", "slip_x", "stick"} <= set(contact.fields)
     assert contact.numbers["tangential_force"][0] == pytest.approx(2.0, rel=1e-4)
     assert contact.numbers["dissipation"] > 0.0 and contact.numbers["stick_area"] > 0.0
+    assert contact.numbers["plastic_work"] != pressed().numbers["plastic_work"]

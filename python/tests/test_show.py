@@ -222,13 +222,29 @@ def test_passes_become_a_frame(run):
 def test_every_column_of_the_tables_has_a_unit():
     from asperity import _core
 
-    known = dict(_core.COLUMN_UNITS)
-    assert {*_core.STEP_COLUMNS, *_core.PASS_COLUMNS, *_core.INCREMENT_COLUMNS, *_core.SWEEP_COLUMNS} <= known.keys() | {
-        "plastic_volume_lower", "plastic_volume_upper", "creepage_x", "creepage_y", "contact_fraction",
+    plain = {
+        "pass", "step", "overlap_columns", "largest_spot_cells", "plastic_cells", "iterations", "convolutions", "residual",
+        "friction_coefficient", "outer_iterations", "increment", "stage", "point", "contact_fraction", "creepage_x",
+        "creepage_y",
     }  # fmt: skip
-    others = {"subsurface_max_von_mises": "Pa", "own_volume_lower": "m³", "creepage_x": "1", "message": "", "of nobody": ""}
-    for column, unit in {**known, **others}.items():
-        assert _show.unit_of(column) == unit, column
+    for column in {*_core.STEP_COLUMNS, *_core.PASS_COLUMNS, *_core.INCREMENT_COLUMNS, *_core.SWEEP_COLUMNS}:
+        assert (_show.unit_of(column) == "1") == (column in plain), column
+    for column, unit in _core.COLUMN_UNITS:
+        assert _show.unit_of(column) == unit
+
+
+@pytest.mark.parametrize(
+    ("column", "unit"),
+    [
+        ("distance", "m"), ("time", "s"), ("max_wear_lower", "m"), ("max_wear_upper", "m"), ("mean_film_lower", "m"),
+        ("mean_film_upper", "m"), ("error_estimate", "m"), ("friction_work", "J"), ("max_flash_temperature", "K"),
+        ("plastic_work_lower", "J"), ("plastic_work_rim", "J"), ("surface_shift_upper", "m"), ("max_temperature", "K"),
+        ("friction_power", "W"), ("offset_y", "m"), ("subsurface_max_von_mises", "Pa"), ("max_residual_tension", "Pa"),
+        ("own_volume_lower", "m³"), ("represents", "1"), ("state", ""), ("message", ""), ("of nobody", ""),
+    ],
+)  # fmt: skip
+def test_columns_have_the_units_of_the_documents(column, unit):
+    assert _show.unit_of(column) == unit
 
 
 def test_what_a_run_writes_has_units_in_frame_and_dataset(tmp_path, steel):

@@ -102,11 +102,15 @@ def archard(p: asp.Pass, over_hardness: float = 2e-13) -> tuple[np.ndarray, np.n
     return depths[0].reshape(p.shapes[0]), depths[1].reshape(p.shapes[1])
 
 
-def test_a_law_takes_its_volume_off(pair: Pair) -> None:
+def test_archards_wear_balances_its_volume(pair: Pair) -> None:
     elastic = tuple(asp.Body(body.surface, asp.Material("210 GPa", 0.3)) for body in pair)
-    run = asp.simulate(*elastic, load=0.02, passes=2, law=archard)
+    run = asp.simulate(*elastic, load=0.02, passes=3, law=archard)
+    # V = k W s: the load of a pass is the sum over its positions, each slides over one cell.
+    worn = 2e-13 * 63 * run.passes["mean_load"] * 1e-6
+    for body in ("lower", "upper"):
+        assert run.passes[f"wear_volume_{body}"] == pytest.approx(worn, rel=1e-9)
     gone = (run.lower(0).heights - run.lower().heights).sum() * 1e-12
-    assert gone == pytest.approx(run.passes["wear_volume_lower"].sum(), rel=1e-9) and gone > 0.0
+    assert gone == pytest.approx(worn.sum(), rel=1e-9)
     assert (run.passes["plastic_volume_lower"] == 0).all()
 
 
@@ -123,6 +127,10 @@ def test_a_custom_law_counts_in_an_accelerated_run(pair: Pair, tmp_path: pathlib
     whole = asp.simulate(*elastic, passes=400, law=law, out=tmp_path / "whole", **limits)
     table = whole.passes
     assert table["represents"].sum() == 400 and len(table) < 100
+    # k W s: the depths of a single pass come off once for each pass that is represented.
+    distance = table["distance"][-1] / 400
+    expected = 1e-16 * (table["represents"] * table["mean_load"]).sum() * distance
+    assert table["wear_volume_lower"].sum() == pytest.approx(expected, rel=1e-6)
     assert 0.1e-9 < max(most) < 0.22e-9
     simulation = asp.Simulation(*elastic, passes=400, out=tmp_path / "parts", **limits)
     for p in simulation:
@@ -155,10 +163,25 @@ def test_what_is_done_between_two_cells_comes_to_both(pair: Pair) -> None:
 
 
 def test_a_pass_there_and_back_and_across_has_its_steps(pair: Pair) -> None:
-    run = asp.simulate(*pair, load=0.02, passes=2, stride=8, boundary=("free", "periodic"), path="reciprocating", offset_y="random")
-    assert len(set(run.steps["offset_y"])) == 2 and np.ptp(run.steps["offset"][:14] - run.steps["offset"][13::-1]) == 0.0
+    run = asp.simulate(
+        *pair, load=0.02, passes=3, stride=8, boundary=("free", "periodic"), path="reciprocating", offset_y="random", seed=3
+    )
+    for number in (1, 2, 3):
+        steps = run.steps[run.steps["pass"] == number]
+        assert np.array_equal(steps["offset"], steps["offset"][::-1]) and len(set(steps["offset_y"])) == 1
+        assert np.array_equal(steps["load"], steps["load"][::-1])
     with pytest.raises(errors.CaseError, match="needs a generated upper surface"):
         asp.simulate(pair[0], asp.Body(asp.form.flat((32, 32), pitch="1 um"), pair[0].material), load=0.02, counter="fresh")
+
+
+def test_a_fresh_counter_body_is_another_in_each_pass(pair: Pair) -> None:
+    lower, upper = (
+        asp.Body(asp.generate.low_pass((24, 16), pitch="1 um", sq="50 nm", cutoff="8 um", seed=s), pair[0].material)
+        for s in (1, 2)
+    )
+    run = asp.simulate(lower, upper, load=0.01, passes=3, stride=4, counter="fresh")
+    first, second, third = (run.upper(number).heights for number in (1, 2, 3))
+    assert abs(second - first).max() > 20e-9 and abs(third - second).max() > 20e-9
 
 
 def test_a_loop_is_the_law(pair: Pair) -> None:
@@ -245,8 +268,12 @@ def test_a_law_that_gives_what_has_no_meaning(pair: Pair, law, told: str) -> Non
     ("arguments", "told"),
     [
         ({"passes": 0}, "'passes' is 0"),
+        ({"passes": 1.5}, "'passes' is 1.5"),
+        ({"stride": -1}, "'stride' is -1"),
         ({"strategy": "roll"}, "'strategy' is \"roll\""),
+        ({"control": "approach"}, "'control'"),
         ({"boundary": "periodic"}, "needs a boundary that is free along x"),
+        ({"rim": 0.7}, "'rim' is 0.7"),
         ({"speed_upper": 1}, "applies to strategy = \"shift\" only"),
     ],
 )
@@ -311,8 +338,12 @@ def test_bodies_that_wear_and_grow_films(pair: Pair, tmp_path: pathlib.Path) -> 
         friction={"coefficient": 0.1, "coupling": "none"}, acceleration={}, temperature={"bulk": "100 °C"}, out=tmp_path / "out",
     )  # fmt: skip
     assert run.is_done and run.passes["represents"].sum() == 60 and len(run.passes) < 60
-    assert (run.passes["wear_volume_lower"] > 0.0).all() and (run.passes["wear_volume_upper"] > 0.0).all()
-    assert (run.passes["mean_film_upper"] == 0).all() and run.passes["max_flash_temperature"].min() > 373.15
+    # V = k W s of the lower body, α μ W s of the upper one.
+    work = (run.passes["represents"] * run.passes["mean_load"]).sum() * 8 * 4e-6
+    assert run.passes["wear_volume_lower"].sum() == pytest.approx(2e-15 * work, rel=1e-3)
+    assert run.passes["wear_volume_upper"].sum() == pytest.approx(2e-14 * 0.1 * work, rel=1e-3)
+    assert (np.diff(run.passes["mean_film_lower"]) > 0).all() and (run.passes["mean_film_upper"] == 0).all()
+    assert run.passes["max_flash_temperature"].min() > 373.15
     assert run.fields()["film_lower"].values.mean() == pytest.approx(run.passes["mean_film_lower"][-1])
     with pytest.raises(errors.CaseError, match="missing key 'speed'"):
         asp.simulate(lower, pair[1], load=0.02, temperature={"bulk": "100 °C"})

@@ -1,5 +1,6 @@
-"""The stress below the surface: its shapes, arguments and copies."""
+"""The stress below the surface against closed forms and NumPy."""
 
+import math
 import pickle
 
 import asperity as asp
@@ -13,8 +14,14 @@ STEEL = asp.Material("210 GPa", 0.3)
 
 
 def test_under_a_ball_it_is_hertz():
-    s = asp.stress(PRESSURE, np.linspace(0.0, 20e-6, 6), poisson=0.3, pitch=1e-6)
+    depths = np.linspace(0.0, 20e-6, 6)
+    s = asp.stress(PRESSURE, depths, poisson=0.3, pitch=1e-6)
     assert s.shape == s.xx.shape == (6, 65, 65)
+    exact = asp.reference.SlidingSphere(BALL, 0.0, 0.3).stress(
+        X[None, :, None], X[None, None, :], depths[1:, None, None]
+    )
+    for name in ("xx", "yy", "zz", "yz", "xz", "xy"):
+        assert np.abs(s[name][1:] - exact[name]).max() < 0.03 * BALL.peak_pressure(), name
     assert s.zz[0] == pytest.approx(-PRESSURE, abs=1e-6 * BALL.peak_pressure())
     most = s.most_stressed
     assert most.cell == (32, 32)
@@ -23,10 +30,28 @@ def test_under_a_ball_it_is_hertz():
     assert s.most_sheared.value / BALL.peak_pressure() == pytest.approx(0.31, abs=0.002)
 
 
-def test_invariants_have_the_shape_of_the_points():
-    s = asp.Stress(*np.random.default_rng(3).normal(size=(6, 4, 5)))
-    assert s.principal.shape == (3, 4, 5) and s.von_mises.shape == (4, 5)
-    assert s.max_shear == pytest.approx(0.5 * (s.principal[0] - s.principal[2]), abs=1e-12)
+def test_a_periodic_wave_is_flamants():
+    n, pitch, depth, p1 = 32, 1e-6, 3e-6, 1e6
+    x = (np.arange(n) + 0.5) * pitch
+    q = 2 * math.pi / (n * pitch)
+    p = np.repeat((p1 * np.cos(q * x))[:, None], 8, axis=1)
+    s = asp.stress(p, depth, poisson=0.3, pitch=pitch, boundary="periodic")
+    decay = math.exp(-q * depth)
+    assert s.zz[0] == pytest.approx(-p * (1 + q * depth) * decay, abs=1e-6 * p1)
+    assert s.xx[0] == pytest.approx(-p * (1 - q * depth) * decay, abs=1e-6 * p1)
+    assert s.yy[0] == pytest.approx(-0.6 * p * decay, abs=1e-6 * p1)
+
+
+def test_invariants_are_those_of_the_eigenvalues():
+    random = np.random.default_rng(3).normal(size=(6, 4, 5))
+    s = asp.Stress(*random)
+    xx, yy, zz, yz, xz, xy = random
+    matrices = np.moveaxis(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), (0, 1), (-2, -1))
+    principal = np.moveaxis(np.linalg.eigvalsh(matrices)[..., ::-1], -1, 0)
+    assert s.principal == pytest.approx(principal, abs=1e-12)
+    assert s.max_shear == pytest.approx(0.5 * (principal[0] - principal[2]), abs=1e-12)
+    a, b, c = principal
+    assert s.von_mises == pytest.approx(np.sqrt(0.5 * ((a - b) ** 2 + (b - c) ** 2 + (c - a) ** 2)), abs=1e-12)
     assert asp.Stress(1.0, 0.0, 0.0, 0.0, 0.0, 0.0).principal.tolist() == [1.0, 0.0, 0.0]
 
 
@@ -46,6 +71,10 @@ def test_a_contact_brings_all_along_and_its_bodies_mirror_each_other():
     without = asp.stress(c.pressure, [2e-6, 5e-6], poisson=0.3, pitch=c.pitch)
     assert 0.5 * (lower.zz + upper.zz) == pytest.approx(without.zz, abs=1e-3)
     assert lower != upper
+    # Equilibrium: each plane carries the load and the tangential force, but for what passes beside the grid.
+    area = c.pitch[0] * c.pitch[1]
+    assert -lower.zz[0].sum() * area == pytest.approx(0.2, rel=0.02)
+    assert abs(lower.xz[0].sum()) * area == pytest.approx(0.03, rel=0.06)
     assert lower.xz[0].sum() == pytest.approx(-upper.xz[0].sum(), rel=1e-9)
 
 

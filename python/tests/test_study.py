@@ -150,7 +150,8 @@ def test_cases_that_fail_are_rows_with_their_message(folder: pathlib.Path) -> No
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
-def test_a_study_that_is_stopped_goes_on(folder: pathlib.Path) -> None:
+@pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGKILL])
+def test_a_study_that_is_stopped_goes_on(folder: pathlib.Path, kind: signal.Signals) -> None:
     write('base = "case.toml"\n[axes]\n"motion.passes" = [1, 2, 40, 3, 4]\n', MOTION)
     program = textwrap.dedent(
         """
@@ -173,9 +174,9 @@ def test_a_study_that_is_stopped_goes_on(folder: pathlib.Path) -> None:
         assert process.poll() is None and time.monotonic() - began < 60
         time.sleep(0.005)
     assert study.states.tolist() == ["done", "done", "running", "open", "open"]
-    process.send_signal(signal.SIGINT)
+    process.send_signal(kind)
     printed, _ = process.communicate(timeout=60)
-    assert printed == "interrupted [3, 4, 5] ['done', 'done', 'open', 'open', 'open']\n"
+    assert printed == ("interrupted [3, 4, 5] ['done', 'done', 'open', 'open', 'open']\n" if kind == signal.SIGINT else "")
     assert study.left.tolist() == [3, 4, 5] and study.states[2] == "open"
     summary = study.directory / "cases/0001/summary.json"
     before = summary.stat().st_mtime_ns
@@ -218,13 +219,18 @@ def test_mistakes_are_told_with_their_place(folder: pathlib.Path) -> None:
     assert len(asp.study("load.toml", out="other", progress=False).table) == len(study)
 
 
-def test_an_axis_may_have_words(folder: pathlib.Path) -> None:
-    write('base = "case.toml"\n[axes]\n"contact.boundary" = ["free", "periodic"]\n')
-    study = asp.study("load.toml", progress=False)
-    assert study.units["contact.boundary"] == "" and study.table["contact.boundary"].tolist() == ["free", "periodic"]
-    frame = study.to_pandas()
-    assert frame.index.name == "case" and frame["contact.boundary"].tolist() == ["free", "periodic"]
-    assert frame.attrs["units"]["contact_area"] == "m²"
+def test_a_study_grows_and_has_words_for_values(folder: pathlib.Path) -> None:
+    study = 'base = "case.toml"\n[axes]\n"contact.boundary" = ["free"{}]\n"contact.tolerance" = [1e-6, 1e-8]\n'
+    write(study.format(""))
+    assert len(asp.study("load.toml", progress=False).table) == 2
+    write(study.format(', "periodic"'))
+    grown = asp.Study("load.toml")
+    assert grown.left.tolist() == [3, 4] and grown.units["contact.boundary"] == ""
+    grown.run(progress=False)
+    assert grown.table["contact.boundary"].tolist() == ["free", "free", "periodic", "periodic"]
+    frame = grown.to_pandas()
+    assert frame.index.name == "case" and frame["contact.boundary"].tolist() == grown.table["contact.boundary"].tolist()
+    assert frame.attrs["units"]["contact_area"] == "m²" and frame.attrs["units"]["contact.tolerance"] == "1"
 
 
 def test_studies_pickle_copy_and_show(folder: pathlib.Path) -> None:
@@ -286,6 +292,19 @@ def test_the_points_of_a_sweep_are_rows_and_a_dimension(folder: pathlib.Path) ->
     assert line.get_xdata() == pytest.approx([1.0, 2.0, 4.0]) and len(points.get_xdata()) == 9
     frame = study.to_pandas()
     assert list(frame.index.names) == ["case", "point"] and frame.loc[(3, 2), "contact.load"] == 2e-3
+
+
+def test_a_motion_has_the_sums_of_its_passes(folder: pathlib.Path) -> None:
+    write('base = "case.toml"\n[axes]\n"motion.passes" = [1, 3]\n', MOTION)
+    study = asp.study("load.toml", progress=False)
+    passes = [study.open(case).passes for case in (1, 2)]
+    for name in ("plastic_volume_lower", "convolutions"):
+        assert study.table[name] == pytest.approx([of[name].sum() for of in passes])
+    for name in ("sq_lower", "max_pressure", "pass"):
+        assert study.table[name].tolist() == [of[name][-1] for of in passes]
+    results = pytest.importorskip("pandas").read_csv("load/cases/0002/results.csv")
+    assert results["plastic_volume_lower (m³)"].tolist() == pytest.approx(passes[1]["plastic_volume_lower"].tolist(), rel=1e-15)
+    assert results.columns[0] == "pass"
 
 
 def test_a_study_draws_its_cases_and_their_means(folder: pathlib.Path) -> None:

@@ -27,6 +27,15 @@ def test_a_case_is_computed_and_printed_as_the_command_does():
     assert repr(found) == f"<Verification: {lines[-1]}>" and "<pre>flat punch" in found._repr_html_()
 
 
+def test_the_order_is_that_of_the_errors():
+    import numpy as np
+
+    for check in asp.verify("Hertz: sphere", progress=False):
+        if all(check.errors):
+            slope = np.polyfit(np.log(check.sizes), np.log(np.abs(check.errors)), 1)[0]
+            assert check.order == pytest.approx(-slope, rel=1e-9)
+
+
 def test_cases_are_chosen_by_name_or_part_of_it_and_kept_in_order():
     names = asp.verification_cases()
     assert len(names) == len(set(names)) > 30
