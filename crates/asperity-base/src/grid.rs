@@ -144,8 +144,8 @@ impl CellValues {
         }
     }
 
-    /// Returns the values on a grid of about half as many cells along each axis, as means over the fine cells
-    /// of each coarse one.
+    /// Returns the values on a grid of about half as many cells along each axis. A value is the mean over the
+    /// fine cells in a coarse cell.
     #[inline]
     pub fn coarse(&self) -> Self {
         match self {

@@ -231,7 +231,8 @@ impl<'a> Field<'a> {
         if self.part().is_some() {
             let read = quote!(<#of as ::asperity_base::table::Part>::read(__source)?);
             return if self.is_optional {
-                quote!(let #name = if ::asperity_base::table::gives::<#of>(__source) { Some(#read) } else { None };)
+                let gives = quote!(::asperity_base::table::gives::<#of>(__source));
+                quote!(let #name = if #gives { Some(#read) } else { None };)
             } else {
                 quote!(let #name = #read;)
             };

@@ -29,9 +29,7 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
     let read = part::reader(&fields, &list, check.as_ref());
     let check = part::checkers(&fields, &list, |name| quote!(&self.#name));
     let table = &input.ident;
-    let default = if !has_default {
-        TokenStream::new()
-    } else {
+    let default = if has_default {
         let values = fields.iter().map(Field::default).collect::<Result<Vec<_>>>()?;
         let fields = fields.iter().map(|field| &field.name);
         quote! {
@@ -41,6 +39,8 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
                 }
             }
         }
+    } else {
+        TokenStream::new()
     };
     Ok(quote! {
         #default

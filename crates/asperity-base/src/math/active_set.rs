@@ -44,8 +44,8 @@ pub const MAX_SCALINGS: usize = 60;
 /// Largest number of Newton steps and bisections for the offset.
 const MAX_OFFSETS: usize = 200;
 
-/// Tolerance of the coarse grids of a cascade, relative to std(u). If smaller, the scale is the displacement
-/// of a cell by its own pressure at the largest upper bound, which φ never exceeds.
+/// Tolerance of the coarse grids of a cascade, relative to std(u). The displacement of a cell by its own
+/// pressure at the largest upper bound replaces std(u) if it is smaller: φ never exceeds it.
 const COARSE_TOLERANCE: f64 = 1e-2;
 /// Compliance for the first prediction of the sets from a given start, as a multiple of the self-influence. A
 /// guess from coarse grids has smooth errors. The solution at another approach or of another geometry has
@@ -117,8 +117,8 @@ pub fn residual_scale(deviation: f64, size: f64) -> f64 {
 }
 
 /// Computes the offset c with Σ clip(y + c) = `wanted`, for a sum within the bounds and values y whose offset
-/// lies in the `bracket`. This is the Euclidean projection onto the bounds and the sum, with the `accuracy`
-/// of the sum. `sums` returns the sum and the number of values strictly between their bounds.
+/// lies in the `bracket`. This is the Euclidean projection onto the bounds and the sum, which is met to the
+/// `accuracy`. `sums` returns the sum and the number of the values that lie strictly between their bounds.
 ///
 /// The sum is piecewise linear in c, so a bracketed Newton iteration is exact to round-off in a few passes.
 ///

@@ -14,8 +14,8 @@ use super::rows::planes;
 use crate::maps::line;
 use asperity_report::words::closed_form;
 
-/// Describes a static contact and the largest stress below the surface, with a line for each number. The rows
-/// of passes and points are printed during the run.
+/// Describes a static contact and the largest stress below the surface, with a line for each number. The run
+/// itself prints the rows of passes and points.
 ///
 /// The rows of the capabilities are those of all contacts that were `found`, or those of the summary. The
 /// `updates` are those of a contact that slides in place; none of others.

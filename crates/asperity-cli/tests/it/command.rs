@@ -393,9 +393,9 @@ fn every_example_is_accepted_by_check_with_no_warning_but_that_of_a_long_stride(
         };
         assert_has(&ok(&output), modulus);
         let warning = match name {
-            // That it moves by sixteen cells at a time is said.
+            // The bodies move by sixteen cells at a time.
             "running-in" => "warning: with `stride = 16`",
-            // Its rms slope is that of the problem, without the shortest waves.
+            // The rms slope is that of the problem, without the shortest waves.
             "contact-challenge" => "warning: the surfaces are steep",
             _ => "",
         };

@@ -344,9 +344,9 @@ fn every_example_has_its_digests() {
             count[usize::from(variant.edits.is_empty())] += 1;
             count
         });
-        // That of 100 000 passes would have a digest as long as its results, those of bodies that flow and of
-        // 512 × 512 cells take minutes, that of fatigue repeats the small one. How many cycles a computed one
-        // stands for depends on rounding.
+        // The digest of 100 000 passes would be as long as their results. Elasto-plastic bodies and 512 × 512
+        // cells take minutes. The whole example of fatigue repeats the small one. In fretting the number of
+        // cycles of an extrapolation depends on rounding.
         let without =
             ["running-in", "rolling", "contact-challenge", "fretting", "viscoelastic", "micropitting"];
         let wanted = usize::from(!without.iter().any(|example| name == **example));

@@ -199,8 +199,8 @@ impl Bracket {
         Self { touch, low: touch, high: Self::OPEN }
     }
 
-    /// Uses a trial as a bound, `below` the required load or above it. Returns whether it refutes the bound
-    /// of a rougher trial.
+    /// Uses a trial as a bound, `below` the required load or above it. Returns whether the trial refutes a
+    /// bound that a rougher trial has set.
     fn narrow(&mut self, bound: BracketEnd, below: bool) -> bool {
         let refuted;
         if below {

@@ -108,7 +108,7 @@ impl Changes {
     }
 
     /// Whether the heights of the bodies change.
-    pub(super) fn remove(&self) -> bool {
+    pub(super) fn removes(&self) -> bool {
         !self.laws.is_empty() || self.memories.iter().any(|memory| memory.takes().is_some())
     }
 

@@ -65,9 +65,9 @@ pub trait Law: Send + Sync {
         self.per_pressure(friction).map(CellValues::Uniform)
     }
 
-    /// Changes the state of the bodies by `passes` passes with these sums. Returns the height that each cell
-    /// of the lower and of the upper body loses to the law, m, below 0 if a cell grows. The caller lowers the
-    /// heights.
+    /// Changes the state of the bodies by `passes` passes with these sums. Returns the height that the law takes
+    /// from each cell of the lower and of the upper body, m. It is below 0 if a cell grows. The caller lowers
+    /// the heights.
     fn advance(&self, pair: &mut Pair, sums: &[Vec<Field>; 2], passes: f64) -> [Field; 2];
 
     /// Largest depth by which the law has lowered or raised a cell of the lower and of the upper body since

@@ -241,9 +241,7 @@ impl LoadingState {
         };
         let memory = restored_memory(from, pair)?;
         let has_friction = from.holds("stick");
-        let contact = if !has_friction {
-            Equilibrium::Frictionless(Box::new(normal))
-        } else {
+        let contact = if has_friction {
             Equilibrium::Frictional(Box::new(FrictionalSolution {
                 normal,
                 shear: restore_both(from, "traction")?,
@@ -253,6 +251,8 @@ impl LoadingState {
                 slip: restore_both(from, "last_slip")?,
                 stick: from.field("stick")?,
             }))
+        } else {
+            Equilibrium::Frictionless(Box::new(normal))
         };
         Ok(Self {
             increments,

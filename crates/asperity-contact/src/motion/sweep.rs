@@ -42,7 +42,7 @@ pub struct SweepState {
 }
 
 /// Presses a pair at full overlap at each of the `points`. Returns the records of all points, and the contact
-/// of the last. Points that are `done` are not solved again, except the last.
+/// of the last point. Of the points that are `done` only the last one is solved again.
 ///
 /// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of
 /// [`crate::motion::press`], whatever the other points are. A start from the pressures of another load costs
@@ -178,10 +178,10 @@ impl Sweep<'_> {
         let contact = LoadedContact::at_once(pair, solver.solve(&problem)?);
         let record = record(*boundary, number, &contact);
         // A tension on open cells changes with the approach, too.
-        let (stiffness, stats) = if !pair.interface().is_hard() {
-            (None, Stats::default())
-        } else {
+        let (stiffness, stats) = if pair.interface().is_hard() {
             normal_stiffness(solver.normal(), &contact.solution.normal().elastic_cells(), params)?
+        } else {
+            (None, Stats::default())
         };
         let convolutions = record.convolutions + stats.convolutions;
         self.solver = Some((regime, solver));

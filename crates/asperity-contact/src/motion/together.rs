@@ -26,8 +26,8 @@ const BYTES_PER_CELL: f64 = 60.0;
 /// Upper bound of the residual η at which the approach is known well enough. From there on the positions are
 /// solved one by one, each with its own number of iterations.
 const MAX_RESIDUAL: f64 = 3e-2;
-/// The residual for a relative accuracy of the mean load. At the approach found with a residual η, the error
-/// of the load is below 10⁻³ η (measured: 10⁻⁵ to 7·10⁻⁴ η).
+/// Residual over the relative accuracy of the mean load. At the approach found with a residual η the
+/// error of the load is below 10⁻³ η; 10⁻⁵ to 7·10⁻⁴ η were measured.
 const RESIDUAL_PER_ACCURACY: f64 = 300.0;
 
 /// Returns the memory, bytes, to solve all positions of a pass together, each with `columns` columns. `None`

@@ -170,7 +170,8 @@ impl Sweep {
     }
 
     /// Replaces plastic strain by residual stress, for the waves in the bins ±`kx` and `ky`: the components
-    /// of each layer. The strain is traceless, so that its zz is not read.
+    /// of each layer. The zz component of the strain follows from the others,
+    /// because its trace is 0, and is not read.
     pub(super) fn residual(
         &self,
         [kx, ky]: [usize; 2],

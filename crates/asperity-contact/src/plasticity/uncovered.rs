@@ -11,9 +11,9 @@ impl PlasticState {
     /// Returns the state below the new surface of a body that has lost a `depth` of its material, ≥ 0, on the
     /// same layers between `faces`.
     ///
-    /// The strain stays with its material, so that it comes nearer to the surface: each layer gets the mean
-    /// of what lies in it now. In a layer the strain is linear, with a slope that makes no new extremum
-    /// (minmod), and below the lowest face it is 0. The error of a smooth strain is of second order in the
+    /// The strain stays with its material, which comes nearer to the surface. Each layer gets the mean strain
+    /// of the material that lies in it now. The strain in a layer is linear. Its slope makes no new extremum
+    /// (minmod). Below the lowest face the strain is 0. The error of a smooth strain is of second order in the
     /// thickness of the layers, except at its extrema.
     #[must_use]
     pub fn uncovered(&self, faces: &[Metre], depth: &Field) -> Self {

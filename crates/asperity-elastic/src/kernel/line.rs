@@ -59,10 +59,10 @@ impl Line {
         across: bool,
     ) -> Vec<f64> {
         let seen = self.at_distance(x, pitch);
-        let points = if !across {
-            vec![(0.0, 2.0)]
-        } else {
+        let points = if across {
             gauss_legendre(if self.period < 6.0 * pitch[1] { 8 } else { 2 })
+        } else {
+            vec![(0.0, 2.0)]
         };
         let at = |j: usize| {
             let y = j as f64 * pitch[1];

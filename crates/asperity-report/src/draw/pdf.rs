@@ -139,10 +139,10 @@ impl Glyphs {
         let [x, y] = words.at;
         let (along, down) = (start(words), words.size * CAPITAL / 2.0);
         // The text's own y runs up.
-        let matrix = if !words.upright {
-            [1.0, 0.0, 0.0, -1.0, x + along, y + down]
-        } else {
+        let matrix = if words.upright {
             [0.0, -1.0, -1.0, 0.0, x + down, y - along]
+        } else {
+            [1.0, 0.0, 0.0, -1.0, x + along, y + down]
         };
         let [r, g, b] = unit(words.colour);
         content.begin_text().set_fill_rgb(r, g, b).set_font(Name(b"F"), words.size as f32);

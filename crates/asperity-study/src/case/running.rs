@@ -5,13 +5,12 @@ use asperity_base::error::Result;
 use asperity_base::units::PerPascal;
 use asperity_contact::motion::{Acceleration, Changes, Memory, Pair};
 use asperity_contact::solver::Params;
-use asperity_contact::temperature::Thermal;
 use asperity_contact::with::{self, BodyLaw, Capability, Given, Listed};
 use asperity_contact::{each_capability, each_law};
 
 impl Case {
-    /// Returns what the contacts of a `pair` do to its bodies: the laws, what capabilities remember of load
-    /// cycles, and heat.
+    /// Returns the changes of the bodies of a `pair` by their contacts: laws, memories of load cycles, heat and
+    /// extrapolation.
     ///
     /// # Errors
     /// The errors of the library, and of the capabilities.
@@ -22,17 +21,13 @@ impl Case {
             .with_acceleration(self.acceleration.unwrap_or(Acceleration::NONE));
         if let Some(temperature) = self.temperature {
             changes = changes.with_bulk(temperature.bulk);
-            if let Some(thermal) = self.heated() {
-                changes = changes.with_heat(thermal, temperature.every());
+            if let (Some(lower), Some(upper), every @ 1..) =
+                (self.lower.thermal, self.upper.thermal, temperature.every())
+            {
+                changes = changes.with_heat([lower, upper], every);
             }
         }
         Ok(changes)
-    }
-
-    /// Returns the thermal constants of bodies heated by friction; `None` if this is not computed.
-    fn heated(&self) -> Option<[Thermal; 2]> {
-        let wanted = self.temperature.is_some_and(|temperature| temperature.every() > 0);
-        Some([self.lower.thermal?, self.upper.thermal?]).filter(|_| wanted)
     }
 
     /// Returns what capabilities remember of the load cycles of a `pair`.

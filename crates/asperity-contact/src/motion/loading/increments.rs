@@ -253,10 +253,10 @@ impl Increments {
                 gone.iter().for_each(|depth| yielding.uncover(depth));
             }
         }
-        let removes = self.fretting.as_ref().is_some_and(|fretting| fretting.changes().remove());
+        let removes = self.fretting.as_ref().is_some_and(|fretting| fretting.changes().removes());
         let following = next.after(stages, represented, removes);
         let both = self.fretting.as_ref().zip(changed.as_ref());
-        let changes = both.map(|(fretting, changed)| fretting.record(changed));
+        let record = both.map(|(fretting, changed)| fretting.record(changed));
         let heat = both.and_then(|(fretting, changed)| fretting.heat_record(changed));
         let creep = memory.as_ref().map(|_| {
             let before = increments.last().and_then(|last| last.creep).unwrap_or_default();
@@ -267,7 +267,7 @@ impl Increments {
             creep,
             stage: next.stage + 1,
             heat,
-            fretting: changes,
+            fretting: record,
             plastic_volume: area * flattening.total(plastic).sum(),
             dissipation,
             interface,

@@ -95,24 +95,21 @@ fn worn_off(worn: CubicMetre, deepest: Metre, distance: Metre, work: Joule) -> O
     } else {
         String::new()
     };
-    let known = distance > 0.0 && (worn / work).is_finite();
-    (worn > 0.0).then(|| if known {
+    let [about, sentence] = if distance > 0.0 && (worn / work).is_finite() {
         let over = format(distance, Dimension::Length);
         let [k, rate] = [format_number(1e9 * worn / work), per_metre(worn / distance)];
-        Answer {
-            name: "wear".into(),
-            about: format!("Of both bodies over {over}{deep}: {rate}, a coefficient of {k} mm³/(N m)."),
-            sentence: format!(
-                "Wear has taken {value} from the bodies over {over} of sliding{deep}: {rate}, a coefficient of {k} mm³/(N m)."
-            ),
-            value,
-        }
-    } else { Answer {
-        name: "wear".into(),
-        about: format!("Volume that both bodies have lost so far{deep}."),
-        sentence: format!("Wear has taken {value} from the bodies{deep}."),
-        value,
-    } })
+        let law = format!("{rate}, a coefficient of {k} mm³/(N m).");
+        [
+            format!("Of both bodies over {over}{deep}: {law}"),
+            format!("Wear has taken {value} from the bodies over {over} of sliding{deep}: {law}"),
+        ]
+    } else {
+        [
+            format!("Volume that both bodies have lost so far{deep}."),
+            format!("Wear has taken {value} from the bodies{deep}."),
+        ]
+    };
+    (worn > 0.0).then(|| Answer { name: "wear".into(), about, sentence, value })
 }
 
 /// Writes a volume per distance.

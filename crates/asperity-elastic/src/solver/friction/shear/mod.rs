@@ -284,10 +284,10 @@ impl ShearSolver {
             state.freedom.iter().zip(residual).map(|(freedom, r)| times(weight(freedom), *r)).collect();
         let mut z = self.influence.invert(&state.cells, &weighted);
         for ((freedom, z), r) in state.freedom.iter().zip(&mut z).zip(residual) {
-            *z = if !freedom.is_diagonal(compliance) {
-                freedom.part(times(weight(freedom), *z))
-            } else {
+            *z = if freedom.is_diagonal(compliance) {
                 times(1.0 / (compliance + freedom.slip_compliance()), *r)
+            } else {
+                freedom.part(times(weight(freedom), *z))
             };
         }
         state.balance(&mut z);

@@ -431,10 +431,10 @@ impl SteadySolver {
         for (k, freedom) in state.freedom.iter().enumerate().rev() {
             let arriving = coming[k].map_or([0.0; 2], |next| displacement[next]);
             let damping = 1.0 / (1.0 + freedom.slip_compliance() / compliance);
-            displacement[k] = if !state.is_unyielding(k) {
-                times(damping, freedom.part(add(residual[k], arriving)))
-            } else {
+            displacement[k] = if state.is_unyielding(k) {
                 [0.0; 2]
+            } else {
+                times(damping, freedom.part(add(residual[k], arriving)))
             };
         }
         let mut shear = self.influence.invert(&state.cells, &displacement);
