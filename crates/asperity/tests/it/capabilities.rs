@@ -102,7 +102,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             "asperity-contact/src/lib.rs",
             "asperity/src/lib.rs",
             // A load that pulls the bodies apart, or may pull.
-            "asperity-base/src/error.rs",
+            "asperity-base/src/error/mod.rs",
             "asperity-study/src/case/stage.rs",
             "asperity-study/src/case/rules/loading.rs",
             // Tables that viscoelastic bodies do not support.
@@ -160,7 +160,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             "asperity-study/src/case/root.rs",
             "asperity-study/src/case/stage.rs",
             "asperity-study/src/case/schema/mod.rs",
-            "asperity-study/src/estimate.rs",
+            "asperity-study/src/estimate/mod.rs",
             "asperity-study/src/estimate/demand.rs",
             "asperity-study/src/finish.rs",
             "asperity-study/src/identity.rs",

@@ -5,7 +5,7 @@ use asperity_base::error::Error;
 
 use super::{agrees, annotated, wrapped};
 
-const SOURCE: &str = include_str!("../../../../asperity-base/src/error.rs");
+const SOURCE: &str = include_str!("../../../../asperity-base/src/error/mod.rs");
 
 const HEAD: &str = r#""""Exceptions of asperity: one for each cause, with its numbers as attributes.
 
