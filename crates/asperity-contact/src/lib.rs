@@ -33,6 +33,7 @@
 //! | cells in contact and their heat sources | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature and the heat partition |
 //! | cells in contact and conductivities | [`conductance::solve`] | [`conductance::Conductance`]: thermal or electrical |
 //! | the deformed gap of a contact | [`flow::solve()`] | its permeability, leakage and critical constriction |
+//! | an operator, a gap and an oil | [`lubrication::solve_film`], [`lubrication::FilmSpeeds`] | [`lubrication::FilmSolution`]: from full film to dry contact |
 //! | tractions | [`subsurface::Subsurface`] | [`stress::Stress`] plane by plane, and its maximum |
 //! | the pressures of a pass that repeats | [`fatigue::StressHistory`] | Dang Van's criterion below the surface |
 //! | plastic strain below a surface | [`plasticity::Volume`], [`plasticity::J2`] | its residual stress and displacement, and its growth |
@@ -67,7 +68,7 @@
 //! - A cell yields at the hardness, the upper limit of its pressure. Its surface is truncated there,
 //!   which leaves no residual stress.
 //! - Friction follows Coulomb's law in each cell, up to a shear strength. All positions of a motion are in gross slip.
-//! - There is no inertia, and no lubricant carries load. Of the materials only viscoelastic ones ([`mod@viscoelastic`]) depend on time, none on
+//! - There is no inertia. A film of oil ([`lubrication`]) is solved for by itself, not in a motion. Of the materials only viscoelastic ones ([`mod@viscoelastic`]) depend on time, none on
 //!   temperature.
 //!   [`temperature`] computes the frictional heating of half-spaces with constant properties at a given bulk temperature.
 //! - A grid has at most 2³² cells. Roughness shorter than about eight cells is not resolved.
@@ -89,6 +90,7 @@ pub mod subsurface;
 pub mod temperature;
 pub mod plasticity;
 pub mod viscoelastic;
+pub mod lubrication;
 pub mod motion;
 pub mod with;
 pub mod verification;

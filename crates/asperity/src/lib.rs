@@ -66,7 +66,7 @@
 //! - A cell yields at the hardness, the upper limit of its pressure. Its surface is truncated there,
 //!   which leaves no residual stress.
 //! - Friction follows Coulomb's law in each cell, up to a shear strength. All positions of a motion are in gross slip.
-//! - There is no inertia, and no lubricant carries load. Of the materials only viscoelastic ones ([`mod@viscoelastic`]) depend on time, none on
+//! - There is no inertia. A film of oil ([`lubrication`]) is solved for by itself, not in a case. Of the materials only viscoelastic ones ([`mod@viscoelastic`]) depend on time, none on
 //!   temperature.
 //!   [`temperature`] computes the frictional heating of half-spaces with constant properties at a given bulk temperature.
 //! - A grid has at most 2³² cells. Roughness shorter than about eight cells is not resolved.
@@ -102,8 +102,8 @@
 
 pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
 pub use asperity_contact::{
-    adhesion, conductance, fatigue, film, flow, kernel, material, motion, operator, plasticity, reference,
-    solver, stress, subsurface, temperature, verification, viscoelastic, wear, with,
+    adhesion, conductance, fatigue, film, flow, kernel, lubrication, material, motion, operator, plasticity,
+    reference, solver, stress, subsurface, temperature, verification, viscoelastic, wear, with,
 };
 pub use asperity_contact::{each_capability, each_interface, each_law, each_property};
 #[cfg(feature = "study")]

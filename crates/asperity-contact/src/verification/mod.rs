@@ -27,6 +27,7 @@ mod flow;
 mod fretting;
 mod heat;
 mod in_place;
+mod lubrication;
 mod operators;
 mod partial_slip;
 mod plasticity;
@@ -121,7 +122,7 @@ impl Check {
 }
 
 /// All cases: operators first, then solutions without friction, with adhesion, of viscoelastic bodies and
-/// with friction, frictional heating, flow through a gap, plastic flow and wear.
+/// with friction, frictional heating, flow through a gap, films of an oil, plastic flow and wear.
 pub const CASES: &[Case] = &[
     operators::LOADED_RECTANGLE,
     operators::FREE_TRANSFORM,
@@ -193,6 +194,11 @@ pub const CASES: &[Case] = &[
     flow::RIM,
     flow::CHECKERBOARD,
     flow::CONSERVATION,
+    lubrication::PAD,
+    lubrication::RUPTURE,
+    lubrication::SQUEEZE,
+    lubrication::BALL,
+    lubrication::SLOW,
     plasticity::ENERGY,
     plasticity::ONSET,
     plasticity::SPHERE,

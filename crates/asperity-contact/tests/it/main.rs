@@ -17,6 +17,7 @@ mod kinematics;
 mod laws;
 mod line;
 mod loading;
+mod lubrication;
 mod motion;
 mod moving_surfaces;
 mod random_motions;

@@ -1,0 +1,56 @@
+//! A lubricant between the bodies, from full film to dry contact in one problem.
+//!
+//! Film, cavitation and contact are complementary pairs of one nonlinear system ([`FilmProblem`]), which
+//! [`solve_film`] solves by one Newton method. Nothing is switched off where the film is thin: at low speeds the
+//! answer is the dry contact. [`FilmSpeeds`] follows a Stribeck curve, [`FilmForces`] has its friction, and an
+//! [`OilStep`] takes the film of one position to the next.
+//!
+//! ```
+//! use asperity_contact::lubrication::{FilmForces, FilmParams, FilmProblem, FilmSpeeds, Oil, Shear};
+//! use asperity_contact::operator::{Boundary, FreeFft};
+//! use asperity_contact::solver::Control;
+//! use asperity_contact::{Field, Grid};
+//!
+//! // A steel ball of 10 mm radius with waves of 40 nm on a plate, under 2 N.
+//! let grid = Grid::new([40, 32], [6e-6; 2])?;
+//! let gap = Field::from_shape_fn(grid.shape, |(ix, iy)| {
+//!     let [x, y] = [(0, ix), (1, iy)].map(|(axis, i)| grid.centre(axis, i) - 0.5 * grid.extent()[axis]);
+//!     (x * x + y * y) / 20e-3 + 40e-9 * (1e5 * x).cos() * (1e5 * y).cos()
+//! });
+//! let mut operator = FreeFft::new(grid, 115e9);
+//! let problem = FilmProblem {
+//!     gap: &gap,
+//!     oil: Oil::new(0.04, 20e-9)?,
+//!     speed: 1.0,
+//!     boundary_film: 2e-9,
+//!     control: Control::Load(2.0),
+//!     ends: [0.0; 2],
+//!     step: None,
+//! };
+//! let mut speeds = FilmSpeeds::new(&mut operator, problem, FilmParams::default())?;
+//! let [slow, fast] = [1e-4, 1.0].map(|speed| speeds.at(&mut operator, speed));
+//! let share = |speed: f64, solution: &_| {
+//!     let problem = FilmProblem { speed, ..problem };
+//!     let forces = FilmForces::of(&problem, solution, &grid, Boundary::FREE, 2.0 * speed, Shear::Limited(0.05));
+//!     [forces.solid_share(), forces.friction_coefficient(0.12)]
+//! };
+//! let [solids, friction] = share(1e-4, &slow?);
+//! assert!(solids > 0.9 && friction > 0.11);
+//! let [solids, friction] = share(1.0, &fast?);
+//! assert!(solids == 0.0 && friction < 0.06);
+//! # Ok::<(), asperity_contact::Error>(())
+//! ```
+
+mod film;
+mod flow;
+mod forces;
+mod fronts;
+mod near;
+mod newton;
+mod oil;
+mod speeds;
+
+pub use film::{Film, FilmParams, FilmProblem, FilmSolution, OilStep, solve_film};
+pub use forces::{FilmForces, Shear};
+pub use oil::{CompressedOil, Oil, ViscosityLaw};
+pub use speeds::FilmSpeeds;

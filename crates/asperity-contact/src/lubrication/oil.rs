@@ -1,0 +1,119 @@
+//! Oils: viscosity and density under pressure.
+
+use crate::error::{Result, check, check_in};
+use crate::units::{Dimension, Pascal, PascalSecond};
+
+/// How the viscosity of an oil rises with pressure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ViscosityLaw {
+    /// It does not.
+    Constant,
+    /// Barus: η₀ exp(α p). It is far too stiff above some 0.3 GPa.
+    Barus,
+    /// Roelands: η₀ exp((ln η₀ + 9.67) ((1 + p/p₀)ᶻ − 1)) with p₀ = 0.196 GPa, and z such that the slope at
+    /// ambient pressure is α.
+    #[default]
+    Roelands,
+}
+
+/// An oil at one temperature.
+///
+/// ```
+/// use asperity_contact::lubrication::{Oil, ViscosityLaw};
+///
+/// let oil = Oil::new(0.04, 20e-9)?;
+/// let thick = oil.under(1e9);
+/// assert!((thick.viscosity / 4.65e3 - 1.0).abs() < 0.01, "{}", thick.viscosity);
+/// assert!((thick.density - 1.214).abs() < 1e-3);
+/// let barus = Oil { law: ViscosityLaw::Barus, ..oil };
+/// assert!((barus.under(0.1e9).viscosity / (0.04 * 2.0_f64.exp()) - 1.0).abs() < 1e-12);
+/// # Ok::<(), asperity_contact::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Oil {
+    /// Viscosity η₀ at ambient pressure, > 0.
+    pub viscosity: PascalSecond,
+    /// Pressure–viscosity coefficient α = d ln η/dp at ambient pressure, 1/Pa, ≥ 0.
+    pub pressure_viscosity: f64,
+    /// How the viscosity rises with pressure.
+    pub law: ViscosityLaw,
+    /// Whether the density rises with pressure, by Dowson and Higginson: ρ/ρ₀ = (5.9e8 + 1.34 p)/(5.9e8 + p).
+    pub compressible: bool,
+}
+
+/// An oil under a pressure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CompressedOil {
+    /// Viscosity η.
+    pub viscosity: PascalSecond,
+    /// d ln η/dp, 1/Pa.
+    pub viscosity_rise: f64,
+    /// Density ρ/ρ₀.
+    pub density: f64,
+    /// Its derivative by pressure, 1/Pa.
+    pub density_rise: f64,
+}
+
+/// p₀ of Roelands, Pa.
+const ROELANDS: Pascal = 1.96e8;
+
+/// Largest ln η/η₀. An oil that is stiffer is a solid to any film, and its viscosity would overflow.
+const STIFFEST: f64 = 60.0;
+
+/// Pressure of Dowson and Higginson, Pa.
+const DENSITY: Pascal = 5.9e8;
+
+impl Oil {
+    /// Creates a compressible oil with Roelands' viscosity.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) if the viscosity is not positive, or if the coefficient
+    /// is negative or above 1e-6 1/Pa (oils have 5e-9 … 40e-9).
+    pub fn new(viscosity: PascalSecond, pressure_viscosity: f64) -> Result<Self> {
+        let oil = Self { viscosity, pressure_viscosity, law: ViscosityLaw::Roelands, compressible: true };
+        oil.check().map(|()| oil)
+    }
+
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// As [`Oil::new`].
+    pub fn check(&self) -> Result<()> {
+        let good = Dimension::Viscosity.range().holds(self.viscosity);
+        check_in(Dimension::Viscosity, "viscosity", self.viscosity, good, "1e-9 … 1e9 Pa s")?;
+        let alpha = self.pressure_viscosity;
+        let expected = "a number in 1/Pa from 0 to 1e-6; oils have 5e-9 … 40e-9";
+        check("pressure_viscosity", alpha, (0.0..=1e-6).contains(&alpha), expected)
+    }
+
+    /// Returns the oil under a pressure. Under tension it is as at ambient pressure.
+    #[inline]
+    pub fn under(&self, pressure: Pascal) -> CompressedOil {
+        let p = pressure.max(0.0);
+        let (exponent, slope) = match self.law {
+            ViscosityLaw::Constant => (0.0, 0.0),
+            ViscosityLaw::Barus => (self.pressure_viscosity * p, self.pressure_viscosity),
+            ViscosityLaw::Roelands => {
+                let a = self.viscosity.ln() + 9.67;
+                let z = self.pressure_viscosity * ROELANDS / a;
+                let b = 1.0 + p / ROELANDS;
+                let power = b.powf(z);
+                (a * (power - 1.0), self.pressure_viscosity * power / b)
+            }
+        };
+        let (exponent, slope) = if exponent < STIFFEST { (exponent, slope) } else { (STIFFEST, 0.0) };
+        let (density, rise) = if self.compressible {
+            let sum = DENSITY + p;
+            ((DENSITY + 1.34 * p) / sum, 0.34 * DENSITY / (sum * sum))
+        } else {
+            (1.0, 0.0)
+        };
+        let compresses = if pressure > 0.0 { 1.0 } else { 0.0 };
+        CompressedOil {
+            viscosity: self.viscosity * exponent.exp(),
+            viscosity_rise: compresses * slope,
+            density,
+            density_rise: compresses * rise,
+        }
+    }
+}
