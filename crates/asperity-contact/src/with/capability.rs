@@ -101,9 +101,8 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     fn prefix(row: &Self::Row, column: &str) -> &'static str;
 
     /// Work of a contact for each cell and log₂ of their number, in units of a convolution with free
-    /// boundary. `boundary` is the work of one with the boundary of the case, and `digits` those of the
-    /// tolerance over six.
-    fn effort(&self, boundary: f64, digits: f64) -> f64;
+    /// boundary.
+    fn effort(&self) -> f64;
 
     /// Memory of the computation from a contact, bytes.
     fn memory(shape: [usize; 2]) -> f64;

@@ -70,25 +70,9 @@ impl Case {
         }
         loss
     }
-
-    /// Number of maps of the fields that the laws of a body keep.
-    pub(crate) fn maps_of_laws(&self) -> usize {
-        let mut maps = 0;
-        each_law!(L => if [&self.lower, &self.upper].iter().any(|body| L::of(&body.laws).is_some()) {
-            maps += L::KEPT.iter().filter(|kept| kept.map.is_some()).count();
-        });
-        maps
-    }
 }
 
 impl Body {
-    /// Number of fields that its laws keep.
-    pub(crate) fn kept_by_laws(&self) -> usize {
-        let mut kept = 0;
-        each_law!(L => kept += L::of(&self.laws).map_or(0, |_| L::KEPT.len()));
-        kept
-    }
-
     /// Work of its laws on a cell in contact at a position, in the unit of effort.
     pub(crate) fn effort_of_laws(&self) -> f64 {
         let mut effort = 0.0;

@@ -2,7 +2,7 @@
 
 use web_time::Instant;
 
-use crate::case::{Body, Case, ControlKind, CounterBody, Course, Layer, MotionSpec, Source};
+use crate::case::{Body, Case, Course, Layer, Source};
 use crate::given::SurfaceInput;
 use crate::prepare::grids;
 use crate::subsurface::Plan;
@@ -34,11 +34,9 @@ pub struct Demand {
     pub passes: f64,
     /// Whether bodies may need more passes than estimated: those whose pits end an extrapolation.
     pub is_least: bool,
-    /// Convolutions of all contacts together, with those on coarser grids weighted by their number of cells;
-    /// 0 for elasto-plastic bodies.
+    /// Convolutions of all contacts together, with those on coarser grids weighted by their number of cells.
     pub convolutions: f64,
-    /// Work of solving and writing, in units of the time per cell and log₂ N of one iteration: about a
-    /// nanosecond.
+    /// Work of solving, in units of the time per cell and log₂ N of one iteration: about a nanosecond.
     pub effort: f64,
     /// Work of the figures and the page, in the same unit.
     pub drawing: f64,
@@ -49,12 +47,10 @@ pub struct Demand {
 /// # Errors
 /// [`Error::Case`] if a file cannot be read, or if a step of its preparation is invalid on its grid.
 pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Demand> {
-    let [lower, upper] = grids(case, given)?;
-    let overlaps: Vec<usize> = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
-    let sizes = Sizes { case, lower, upper, overlaps: &overlaps };
+    let sizes = Sizes::of(case, given)?;
     let surfaces = sizes.surfaces();
     let Memory { solver, together, results, volumes } = sizes.memory(threads);
-    let solvers = threads.clamp(1, overlaps.len().max(1)) as f64 * solver;
+    let solvers = threads.clamp(1, sizes.overlaps.len().max(1)) as f64 * solver;
     let memory = PROGRAM
         + match case.motion {
             // Results of a static contact are written after its solver is freed, and drawn after all are
@@ -70,27 +66,23 @@ pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Deman
                 drawing.max(surfaces.kept + working + volumes)
             }
         };
-    let (convolutions, solving) = sizes.solving(threads);
-    let effort = solving + sizes.writing();
-    let drawing = sizes.drawing(threads);
-    let surfaces = surfaces.making.max(surfaces.kept);
-    let passes = case.motion.map_or(1.0, |motion| sizes.computed_passes(motion.passes));
+    let (convolutions, effort) = sizes.solving(threads);
     let mut breaks_out = false;
     for body in [&case.lower, &case.upper] {
         each_property!(P => breaks_out |= P::of(&body.properties).is_some_and(P::breaks_out));
     }
     let is_least = breaks_out && case.acceleration.is_some();
     Ok(Demand {
-        surfaces,
+        surfaces: surfaces.making.max(surfaces.kept),
         solver,
         together,
         results,
         memory,
-        passes,
+        passes: sizes.passes(),
         is_least,
         convolutions,
         effort,
-        drawing,
+        drawing: sizes.drawing(threads),
     })
 }
 
@@ -100,9 +92,7 @@ pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Deman
 /// # Errors
 /// The errors of [`demand`].
 pub fn memory_on_device(case: &Case, given: &SurfaceInput, threads: usize) -> Result<f64> {
-    let [lower, upper] = grids(case, given)?;
-    let overlaps: Vec<usize> = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
-    let sizes = Sizes { case, lower, upper, overlaps: &overlaps };
+    let sizes = Sizes::of(case, given)?;
     let [nx, ny] = sizes.facing().map(|n| n as usize);
     let yields = case.yields();
     let shapes: Vec<[usize; 2]> = match case.motion(1.0) {
@@ -110,7 +100,7 @@ pub fn memory_on_device(case: &Case, given: &SurfaceInput, threads: usize) -> Re
             sizes.solved().iter().map(|columns| [*columns, ny]).collect()
         }
         // Each thread has a position.
-        Some(_) => vec![[nx, ny]; threads.clamp(1, overlaps.len().max(1))],
+        Some(_) => vec![[nx, ny]; threads.clamp(1, sizes.overlaps.len().max(1))],
         None => vec![[nx, ny]],
     };
     Ok(solver::memory_on_device(&shapes, case.contact.boundary, case.is_coated(), yields))
@@ -121,7 +111,7 @@ impl Demand {
     /// present state.
     ///
     /// The time of a few convolutions is measured, in a few milliseconds. The sum is accurate within a factor
-    /// of 1.5 for the examples, and of three for ordinary contacts.
+    /// of two for the examples, and of three for ordinary contacts.
     pub fn times(&self) -> [Second; 2] {
         let unit = unit_of_effort();
         [self.effort * unit, self.drawing * unit]
@@ -161,7 +151,8 @@ struct Sizes<'a> {
     case: &'a Case,
     lower: Grid,
     upper: Grid,
-    overlaps: &'a [usize],
+    /// Number of columns at each position of the first pass.
+    overlaps: Vec<usize>,
 }
 
 struct Surfaces {
@@ -181,7 +172,13 @@ struct Memory {
     volumes: f64,
 }
 
-impl Sizes<'_> {
+impl<'a> Sizes<'a> {
+    fn of(case: &'a Case, given: &SurfaceInput) -> Result<Self> {
+        let [lower, upper] = grids(case, given)?;
+        let overlaps = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
+        Ok(Self { case, lower, upper, overlaps })
+    }
+
     /// Number of cells along x and y of the largest contact.
     fn facing(&self) -> [f64; 2] {
         [self.lower.shape[0].min(self.upper.shape[0]), self.lower.shape[1]].map(|n| n as f64)
@@ -270,13 +267,8 @@ impl Sizes<'_> {
         // The fields besides the bodies, and one while it is written.
         let statics = if case.friction.is_some() { 16.0 } else { 6.0 };
         let results = case.motion.map_or(statics * nx * ny, |_| {
-            let cells = [&self.lower, &self.upper].map(|grid| grid.shape[0] as f64 * grid.shape[1] as f64);
-            let kept = match case.output.pressure_every {
-                0 => 0.0,
-                every => self.overlaps.iter().step_by(every).sum::<usize>() as f64 * ny,
-            };
-            let kept = if case.friction.is_some() { 2.0 * kept } else { kept };
-            2.0 * (cells[0] + cells[1]) + 2.0 * kept
+            let [_, kept] = self.kept();
+            2.0 * self.cells() + if case.friction.is_some() { 4.0 * kept } else { 2.0 * kept }
         });
         let results = NUMBER * (results + self.remembered()) + volumes + self.memory_of_capabilities(threads);
         Memory { solver, together, results, volumes }
@@ -313,33 +305,27 @@ impl Sizes<'_> {
     }
 
     /// Work of the operator applications of elasto-plastic bodies.
-    fn flow(&self, threads: usize) -> f64 {
-        /// Operator applications of a plastic increment, and of an unloading increment.
-        const PRODUCTS: [f64; 2] = [8.0, 1.0];
-        /// Operator applications per position of a motion, and number of approaches tried in a pass.
-        const ROLLING: [f64; 2] = [3.5, 4.0];
-        let Some(plasticity) = self.case.plasticity else { return 0.0 };
-        let products = match self.case.motion {
-            Some(motion) => {
-                let [products, trials] = ROLLING;
-                let trials = if motion.control() == ControlKind::PassLoad { trials } else { 1.0 };
-                trials * products * (motion.passes * self.overlaps.len()) as f64
-            }
-            None => {
-                let course = self.case.course(1.0);
-                let [flowing, unloading] = PRODUCTS;
-                let unloading = if plasticity.unload == Some(true) { unloading } else { 0.0 };
-                let friction = self.case.friction.as_ref().map_or(1, |friction| friction.increments);
-                let first = plasticity.increments.unwrap_or(friction) as f64;
-                let steps = match course.stages() {
-                    [] => self.case.contact.sweep().len() as f64 * first,
-                    stages => Stage::increments(stages) as f64,
-                };
-                flowing * steps + unloading * first
-            }
+    fn flow(&self, course: &Course) -> f64 {
+        /// Operator applications of an increment of a static contact, and of a position in a motion.
+        const PRODUCTS: [f64; 2] = [8.0, 3.5];
+        let increments = self.case.plasticity.and_then(|plasticity| plasticity.increments).unwrap_or(1);
+        let products = match course {
+            Course::Passes(_) => PRODUCTS[1],
+            Course::Sweep(_) => PRODUCTS[0] * increments as f64,
+            _ => PRODUCTS[0],
         };
         let product = |(cells, periodic)| cells * if periodic { 250.0 } else { 1000.0 };
-        products * self.volumes().map(product).sum::<f64>() / (threads.clamp(1, 2) as f64).powf(0.85)
+        self.trials(course) * self.contacts(course) * products * self.volumes().map(product).sum::<f64>()
+    }
+
+    /// Number of approaches tried in a pass of a prescribed mean load, if its bodies change on the way.
+    fn trials(&self, course: &Course) -> f64 {
+        let Course::Passes(motion) = course else { return 1.0 };
+        let searches = matches!(motion.control, Control::Load(_)) && motion.load_control == LoadControl::Pass;
+        let changes = motion.plastic_update == PlasticUpdate::Step
+            || self.case.relaxes()
+            || self.case.plasticity.is_some();
+        if searches && changes { 5.0 } else { 1.0 }
     }
 
     /// Whether tangential tractions are computed.
@@ -349,11 +335,12 @@ impl Sizes<'_> {
     }
 
     /// Estimates the number of computed passes from the stability limit and the largest depth of an
-    /// extrapolation.
-    fn computed_passes(&self, passes: usize) -> f64 {
+    /// extrapolation; 1 for a static contact.
+    fn passes(&self) -> f64 {
         /// Depth lost by the most worn cell over the mean.
         const DEEPEST: f64 = 8.0;
-        let (case, passes) = (self.case, passes as f64);
+        let case = self.case;
+        let passes = case.motion.map_or(1.0, |motion| motion.passes as f64);
         let (Some(acceleration), Some(compliances)) = (case.acceleration, self.compliances()) else {
             return passes;
         };
@@ -376,102 +363,84 @@ impl Sizes<'_> {
     }
 
     /// Returns the convolutions of all contacts, and the work of solving them with everything computed
-    /// besides, in units of a cell times the binary logarithm of the cells of its contact.
+    /// besides.
     fn solving(&self, threads: usize) -> (f64, f64) {
         let case = self.case;
         let [nx, ny] = self.facing();
         let work = |columns: f64| columns * ny * (columns * ny).max(2.0).log2();
+        let together = |works: usize| (threads.clamp(1, works.max(1)) as f64).powf(EFFICIENCY);
+        let course = case.course(nx * ny * self.lower.cell_area());
+        let Cost { convolutions, work: of_convolution } = self.cost(&course);
+        let digits = (0.3 - 0.7 * case.contact.tolerance.log10() / 6.0).max(0.4);
+        let convolutions = digits * convolutions;
         let boundary: f64 =
             case.contact.boundary.wraps().map(|wraps| if wraps { 0.3 } else { 0.5 }).iter().sum();
-        let digits = (0.3 - 0.7 * case.contact.tolerance.log10() / 6.0).max(0.4);
-        // A larger grid takes slightly more.
-        let size = (nx * ny / LARGE).max(1.0).powf(GROWTH);
-        let together = |works: usize| (threads.clamp(1, works.max(1)) as f64).powf(EFFICIENCY);
-        let method = match case.contact.method {
-            Method::PolonskyKeer => 10.0,
-            _ => 1.0,
-        };
-        let all: f64 = self.solved().iter().map(|columns| work(*columns as f64)).sum();
-        // Convolutions of each contact, and their work including the iteration around them.
-        let of = |cost: Cost, contacts: f64| {
-            let convolutions = contacts * cost.convolutions * digits;
-            [convolutions, boundary * cost.work * convolutions * all]
-        };
-        let of_interface = |InterfaceCost { convolutions, work, .. }| Cost { convolutions, work };
-        let normal = case.interface.cost().map_or(NORMAL, of_interface);
-        let normal = Cost { convolutions: method * size * normal.convolutions, ..normal };
-        let unlike = self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
-        let rolling = if unlike { ROLLING_UNLIKE } else { ROLLING };
-        let course = case.course(nx * ny * self.lower.cell_area());
-        let [convolutions, mut effort] = match &course {
-            Course::Passes(motion) => {
-                let changes = motion.plastic_update == PlasticUpdate::Step || case.relaxes();
-                let is_searched =
-                    matches!(motion.control, Control::Load(_)) && motion.load_control == LoadControl::Pass;
-                let searches = if is_searched && changes { 5.0 } else { 1.0 };
-                let positions = self.solved().len();
-                let passes = self.computed_passes(motion.passes);
-                let mut cost = if self.is_coupled() { SLIDING } else { normal };
-                // Later passes start from the pressures of the pass before.
-                cost.convolutions *= WARM + (1.0 - WARM) / passes.max(1.0);
-                let [convolutions, effort] = of(cost, passes * searches);
-                let effort = effort + POSITION * passes * positions as f64;
-                let beside = passes * self.running(motion.passes);
-                // Viscoelastic bodies remember one position after the other.
-                let together = if case.relaxes() { 1.0 } else { together(positions) };
-                [convolutions * positions as f64, effort / together + beside]
-            }
-            Course::InPlace(slide) => {
-                of(if self.is_coupled() { SLIDING } else { normal }, 2.0 + slide.ends.len() as f64)
-            }
-            Course::Rolling(_) => of(rolling, 1.0),
-            Course::Stages(stages) => {
-                let shear = match case.friction.as_ref().map(|friction| friction.law.coupling) {
-                    Some(Coupling::Full | Coupling::Goodman) if unlike => SHEAR_UNLIKE,
-                    Some(_) => SHEAR,
-                    None => normal,
-                };
-                of(shear, self.increments(stages))
-            }
-            Course::Sweep(points) if case.steady.is_some() => {
-                let larger = (nx * ny / LARGE).powf(STEADY_GROWTH);
-                of(Cost { convolutions: larger * STEADY.convolutions, ..STEADY }, points.len() as f64)
-            }
-            Course::Sweep(points) => {
-                let rolls = points.iter().filter(|point| point.regime.rolling().is_some()).count() as f64;
-                let [a, b] = [of(rolling, rolls), of(normal, points.len() as f64 - rolls)];
-                // Only the stiffness of hard walls is computed.
-                let each = if case.interface.is_empty() { STIFFNESS } else { 0.0 };
-                let stiffness = each * boundary * digits * points.len() as f64 * all;
-                [a[0] + b[0], a[1] + b[1] + stiffness]
-            }
-        };
+        let (steps, trials) = (self.steps(&course), self.trials(&course));
+        let solved = self.solved();
+        let positions = solved.len() as f64;
+        let all: f64 = solved.iter().map(|columns| work(*columns as f64)).sum();
+        let of_step = trials * convolutions * boundary * of_convolution * all + POSITION * positions;
+        // Viscoelastic bodies remember one position after the other.
+        let at_once = if case.relaxes() { 1 } else { solved.len() };
+        let mut effort = steps * of_step / together(at_once);
+        let laws = case.lower.effort_of_laws() + case.upper.effort_of_laws();
+        effort += steps * laws * ny * solved.iter().sum::<usize>() as f64;
         if let Some(spec) = &case.subsurface {
-            let passes = self.computed_passes(case.motion.map_or(1, |motion| motion.passes));
             let planes = spec.layers + spec.planes.len();
-            effort += passes * STRESS * planes as f64 * work(nx) / together(planes);
+            effort += self.passes() * STRESS * planes as f64 * work(nx) / together(planes);
         }
-        effort += self.of_capabilities(boundary, digits, &together);
-        // A new counterbody is made for each pass.
-        let times = match case.motion {
-            Some(MotionSpec { counter: CounterBody::Fresh, passes, .. }) => [1.0, passes as f64],
-            _ => [1.0; 2],
-        };
-        let made = self.making().into_iter().zip(times);
-        let making =
-            MAKING * made.map(|([cells, _], times)| times * cells * cells.max(2.0).log2()).sum::<f64>();
-        (convolutions, effort + self.flow(threads) + making)
+        each_capability!(C => if let Some(asked) = C::of(&case.with) {
+            let every = asked.every();
+            let at_once = self.observed_together(every, C::OF_LOAD_CYCLES);
+            effort += asked.effort() * self.observed(&course, every) * work(nx) / together(at_once);
+        });
+        effort += self.flow(&course) / together(2);
+        (steps * trials * positions * convolutions, effort)
     }
 
-    /// Number of contacts that are solved: increments, updates, points, or positions of all computed passes.
-    fn contacts(&self) -> f64 {
-        match self.case.course(1.0) {
-            Course::Passes(motion) => self.computed_passes(motion.passes) * self.overlaps.len() as f64,
+    /// Returns the cost of a contact of the `course`.
+    fn cost(&self, course: &Course) -> Cost {
+        let case = self.case;
+        let [nx, ny] = self.facing();
+        let unlike = self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
+        let coupling = case.friction.as_ref().map(|friction| friction.law.coupling);
+        match course {
+            Course::Passes(_) | Course::InPlace(_) if self.is_coupled() => return SLIDING,
+            Course::Stages(_) if coupling.is_some() => {
+                let couples = matches!(coupling, Some(Coupling::Full | Coupling::Goodman));
+                return if couples && unlike { SHEAR_UNLIKE } else { SHEAR };
+            }
+            Course::Rolling(_) | Course::Sweep(_) if course.rolling().next().is_some() => {
+                return if unlike { ROLLING_UNLIKE } else { ROLLING };
+            }
+            Course::Sweep(_) if case.steady.is_some() => {
+                let larger = (nx * ny / LARGE).powf(STEADY_GROWTH);
+                return Cost { convolutions: larger * STEADY.convolutions, ..STEADY };
+            }
+            _ => (),
+        }
+        let of_interface = |InterfaceCost { convolutions, work, .. }| Cost { convolutions, work };
+        let normal = case.interface.cost().map_or(NORMAL, of_interface);
+        let method = if case.contact.method == Method::PolonskyKeer { 10.0 } else { 1.0 };
+        // A larger grid takes slightly more.
+        let size = (nx * ny / LARGE).max(1.0).powf(GROWTH);
+        Cost { convolutions: method * size * normal.convolutions, ..normal }
+    }
+
+    /// Number of computed passes, updates, increments or points.
+    fn steps(&self, course: &Course) -> f64 {
+        match course {
+            Course::Passes(_) => self.passes(),
             Course::InPlace(slide) => 1.0 + slide.ends.len() as f64,
-            Course::Stages(stages) => self.increments(&stages),
+            Course::Stages(stages) => self.increments(stages),
             Course::Sweep(points) => points.len() as f64,
             Course::Rolling(_) => 1.0,
         }
+    }
+
+    /// Number of contacts that are computed: steps, or the positions of all computed passes.
+    fn contacts(&self, course: &Course) -> f64 {
+        self.steps(course) * self.overlaps.len() as f64
     }
 
     /// Number of increments of the stages of a loading that are computed.
@@ -489,22 +458,9 @@ impl Sizes<'_> {
     }
 
     /// Number of contacts that an observer with this interval looks at.
-    fn observed(&self, every: usize) -> f64 {
-        let passes = self.case.motion.map_or(1.0, |motion| self.computed_passes(motion.passes));
-        if every == 0 { passes } else { (self.contacts() / every as f64).max(passes) }
-    }
-
-    /// Work of the capabilities.
-    fn of_capabilities(&self, boundary: f64, digits: f64, together: &dyn Fn(usize) -> f64) -> f64 {
-        let [nx, ny] = self.facing();
-        let work = nx * ny * (nx * ny).max(2.0).log2();
-        let mut effort = 0.0;
-        each_capability!(C => if let Some(asked) = C::of(&self.case.with) {
-            let every = asked.every();
-            let at_once = self.observed_together(every, C::OF_LOAD_CYCLES);
-            effort += asked.effort(boundary, digits) * self.observed(every) / together(at_once);
-        });
-        effort * work
+    fn observed(&self, course: &Course, every: usize) -> f64 {
+        let passes = self.passes();
+        if every == 0 { passes } else { (self.contacts(course) / every as f64).max(passes) }
     }
 
     /// Number of contacts that an observer with this interval looks at together: those of a step, or of a
@@ -534,17 +490,6 @@ impl Sizes<'_> {
         NUMBER * (looked_at as f64 * nx * ny + states) + largest
     }
 
-    /// Work of the laws of the bodies and of flash temperatures in a computed pass.
-    fn running(&self, passes: usize) -> f64 {
-        let effort = self.case.lower.effort_of_laws() + self.case.upper.effort_of_laws();
-        let heated = match self.case.temperature.map(|temperature| temperature.every()) {
-            Some(every) if every > 0 => 1.0 / every.min(passes.max(1)) as f64,
-            _ => 0.0,
-        };
-        let cells = self.solved().iter().sum::<usize>() as f64 * self.facing()[1];
-        cells * (effort + HEAT * heated)
-    }
-
     /// Number of cells of both bodies together.
     fn cells(&self) -> f64 {
         [&self.lower, &self.upper].map(|grid| grid.shape[0] as f64 * grid.shape[1] as f64).iter().sum()
@@ -561,50 +506,17 @@ impl Sizes<'_> {
         }
     }
 
-    /// Work of writing fields.
-    fn writing(&self) -> f64 {
-        let case = self.case;
-        let bodies = [&case.lower, &case.upper];
-        let of_body = |body: &&Body| (2 + body.kept_by_laws() + case.remembered()) as f64;
-        let [fields, cells] = match case.motion {
-            Some(motion) => {
-                let shear = if case.friction.is_some() { 2.0 } else { 1.0 };
-                let kept = self.kept().map(|kept| shear * kept);
-                let heat = if case.temperature.is_some() { 2.0 } else { 0.0 };
-                let of_bodies = bodies.iter().map(of_body).sum::<f64>() + heat;
-                let pass = [kept[0] + of_bodies, kept[1] + 0.5 * of_bodies * self.cells()];
-                pass.map(|of_pass| self.computed_passes(motion.passes) * of_pass)
-            }
-            None => {
-                let fields = if case.friction.is_some() { 12.0 } else { 6.0 };
-                [fields, fields * self.facing().iter().product::<f64>()]
-            }
-        };
-        FIELD * fields + WRITTEN * cells
-    }
-
     /// Work of figures and page.
     fn drawing(&self, threads: usize) -> f64 {
-        let case = self.case;
-        let maps = case.maps_of_laws() as f64;
-        let given = |there: bool| f64::from(there);
-        let mut figures = match case.motion {
-            Some(_) => 19.0 + given(case.friction.is_some()) + given(case.temperature.is_some()),
-            None => 9.0 + if case.friction.is_some() { 4.0 } else { 0.0 },
-        };
-        figures += maps + 2.0 * maps.min(1.0) + given(case.subsurface.is_some());
-        figures += 2.0 * given(case.plasticity.is_some()) + given(case.course(1.0).is_sweep());
-        let [frames, kept, cells] = match case.motion {
-            Some(motion) => {
-                let [fields, cells] = self.kept();
-                let passes = self.computed_passes(motion.passes);
-                [fields, passes * fields, passes * cells]
+        let [figures, pictures, cells] = match self.case.motion {
+            Some(_) => {
+                let [pictures, cells] = self.kept();
+                [20.0, pictures, self.passes() * cells]
             }
-            None => [0.0; 3],
+            None => [10.0, 0.0, 0.0],
         };
-        let pictures = FIGURE * figures + FRAME * frames + DRAWN_CELL * self.cells();
-        let page = SHOWN * kept + SHOWN_CELL * cells + 0.5 * DRAWN_CELL * self.cells();
-        START + (pictures + page) / (threads.clamp(1, 4) as f64).powf(EFFICIENCY)
+        let work = FIGURE * figures + PICTURE * pictures + DRAWN_CELL * (self.cells() + cells);
+        START + work / (threads.clamp(1, 4) as f64).powf(EFFICIENCY)
     }
 }
 
@@ -634,32 +546,18 @@ const ROLLING_UNLIKE: Cost = Cost { convolutions: 230.0, work: 5.0 };
 /// the number of cells.
 const STEADY: Cost = Cost { convolutions: 135.0, work: 2.5 };
 const STEADY_GROWTH: f64 = 0.6;
-/// Convolutions of a later pass relative to the first.
-const WARM: f64 = 0.8;
 /// Number of cells from which a contact takes more convolutions, and the exponent of this growth.
 const LARGE: f64 = 16384.0;
 const GROWTH: f64 = 0.09;
 /// Work at a position besides its contact.
 const POSITION: f64 = 3.7e5;
-/// Work of the stiffness of a contact, in the unit of effort for each cell and log₂ N.
-const STIFFNESS: f64 = 12.0;
-/// Work of the stress on a plane, in the same unit.
+/// Work of the stress on a plane, in the unit of effort for each cell and log₂ N.
 const STRESS: f64 = 120.0;
-/// Work of a surface: read or generated, prepared, with its figures for the estimate, in the same unit.
-const MAKING: f64 = 6.0;
-/// Work of the flash temperature of a cell at a position.
-const HEAT: f64 = 90.0;
-/// Work of writing a field, and of each of its cells.
-const FIELD: f64 = 4e5;
-const WRITTEN: f64 = 55.0;
 /// Work of a figure, and of a picture of an animation.
 const FIGURE: f64 = 3.4e7;
-const FRAME: f64 = 1.4e7;
-/// Work of a cell of a body in the figures.
-const DRAWN_CELL: f64 = 150.0;
-/// Work of a pressure field on the page, and of each of its cells.
-const SHOWN: f64 = 4e5;
-const SHOWN_CELL: f64 = 190.0;
+const PICTURE: f64 = 1.4e7;
+/// Work of a cell of a body, or of a stored pressure, in files, figures and page.
+const DRAWN_CELL: f64 = 250.0;
 /// Work of the start and the end of the program.
 const START: f64 = 2.5e7;
 /// Exponent of the number of threads in the speed-up of shared work.

@@ -71,9 +71,8 @@ use super::{Capability, Given, Rule, Surroundings};
 use crate::error::Result;
 use asperity_base::Choice;
 
-/// Work of a conductance over that of a convolution, and how many times that with gas.
+/// Work of a conductance over that of a convolution; with gas half as much again.
 const EFFORT: f64 = 13.2;
-const WITH_GAS: f64 = 1.5;
 /// Memory of a solution, numbers of double precision for each cell.
 const NUMBERS: f64 = 14.0;
 
@@ -128,8 +127,8 @@ impl Capability for Joint {
         if column.starts_with(row.quantities.kind.word()) { "" } else { Self::PREFIXES[0] }
     }
 
-    fn effort(&self, boundary: f64, digits: f64) -> f64 {
-        EFFORT * if self.gas.is_some() { WITH_GAS } else { 1.0 } * boundary * digits
+    fn effort(&self) -> f64 {
+        EFFORT
     }
 
     fn memory([nx, ny]: [usize; 2]) -> f64 {

@@ -121,8 +121,8 @@ impl Capability for Fatigue {
         Self::PREFIXES[row.body as usize]
     }
 
-    fn effort(&self, boundary: f64, _: f64) -> f64 {
-        boundary * EFFORT * self.layers as f64
+    fn effort(&self) -> f64 {
+        EFFORT * self.layers as f64
     }
 
     fn memory(shape: [usize; 2]) -> f64 {

@@ -117,7 +117,7 @@ impl Capability for Leakage {
         Self::PREFIXES[row.along as usize]
     }
 
-    fn effort(&self, _: f64, _: f64) -> f64 {
+    fn effort(&self) -> f64 {
         EFFORT
     }
 
