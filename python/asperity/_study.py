@@ -132,7 +132,7 @@ class Study(Comparable):
     def run(self, **options: Unpack[Tasks]) -> None:
         """Compute the remaining cases, as the command ``asperity study`` does.
 
-        The process that finishes the last case writes the tables and the page. A case that cannot be computed has a row in the
+        The process that finishes the last case writes the table and the page. A case that cannot be computed has a row in the
         :attr:`table` with its message, and the other cases are computed. A study that was stopped or killed continues where it was.
         Any number of processes may work on one study.
 
@@ -162,7 +162,7 @@ class Study(Comparable):
             warn([f"{len(failed)} of {len(self)} cases have failed, the first is case {case}: {message}"], FailedCases)
 
     def collect(self) -> NDArray[np.void]:
-        """Write ``table.csv``, ``table.h5`` and ``study.html`` of the finished cases, and return the :attr:`table`.
+        """Write ``table.csv`` and ``study.html`` of the finished cases, and return the :attr:`table`.
 
         Raises
         ------

@@ -83,7 +83,7 @@ def test_a_study_is_known_before_anything_is_computed(folder: pathlib.Path) -> N
 def test_a_study_is_that_of_the_command_bit_for_bit(folder: pathlib.Path) -> None:
     study = asp.study("load.toml", threads=2, progress=False)
     assert command("study load.toml --out other").returncode == 0
-    for name in ("plan.csv", "table.csv", "table.h5"):
+    for name in ("plan.csv", "table.csv"):
         assert (study.directory / name).read_bytes() == pathlib.Path("other", name).read_bytes(), name
     assert (study.directory / "study.html").exists()
     with open("load/table.csv", newline="", encoding="utf-8-sig") as file:

@@ -56,7 +56,7 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
         // The results are incomplete, which `--quiet` does not hide.
         note(&format!(
             "{} of {} cases are done, {} have failed, {} are running, {} are left; \
-             the process that finishes the last case writes the tables, and so does --collect",
+             the process that finishes the last case writes the table, and so does --collect",
             tally.done,
             tally.all(),
             tally.failed,
@@ -124,7 +124,7 @@ fn compute(queue: &Queue, quiet: bool) -> Outcome {
     })
 }
 
-/// Writes the tables and the page of the finished cases of a study, and returns the table.
+/// Writes the table and the page of the finished cases of a study, and returns the table.
 ///
 /// # Errors
 /// [`Error::NotThisStudy`] if the study has grown beyond this file of it; [`Error::File`].
@@ -136,7 +136,6 @@ pub fn collect(study: &Study, folder: &Folder) -> asperity::Result<Table> {
     let table = Table::collect(study, folder)?;
     let path = |name: &str| folder.path().join(name);
     table.write_csv(&path("table.csv"))?;
-    table.write_hdf5(&path("table.h5"))?;
     page::write_study(study, &table, &path("study.html"))?;
     Ok(table)
 }
@@ -148,7 +147,7 @@ fn tell(table: &Table, study: &Study, folder: &Folder) -> Outcome {
     let cases = || table.rows().chunk_by(|one, other| one.case == other.case);
     let failed = cases().filter(|rows| rows[0].failure.is_some()).count();
     note(&format!(
-        "{} of {} cases are done, {failed} have failed; table.csv, table.h5 and study.html in {}",
+        "{} of {} cases are done, {failed} have failed; table.csv and study.html in {}",
         cases().count() - failed,
         study.len(),
         folder.path().display()

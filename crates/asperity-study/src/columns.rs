@@ -59,7 +59,6 @@ pub fn records() -> &'static [(&'static str, &'static [Column])] {
 /// Number of the case.
 pub(super) const CASE: Column = Column::new("case", "1", "Number of the case, from 1.");
 /// Whether the case is done.
-pub(super) const DONE: Column = Column::new("done", "1", "1 of a case that is done, 0 of one that failed.");
 /// Number of warnings of the case.
 pub(super) const WARNINGS: Column = Column::new("warnings", "1", "Number of warnings.");
 /// State of the case.
@@ -67,7 +66,7 @@ pub(super) const STATE: Column = Column::new("state", "", "`done` or `failed`.")
 /// Reason why the case failed.
 pub(super) const MESSAGE: Column = Column::new("message", "", "Why the case failed.");
 /// Columns of the table of a study other than its axes and the numbers of the summaries.
-const OF_A_STUDY: [Column; 5] = [CASE, DONE, WARNINGS, STATE, MESSAGE];
+const OF_A_STUDY: [Column; 4] = [CASE, WARNINGS, STATE, MESSAGE];
 
 /// Returns the prefixes that the table of a study adds to the column names of a record, with these columns.
 fn prefixes() -> Vec<(&'static str, &'static [Column])> {

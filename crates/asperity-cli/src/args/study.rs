@@ -10,10 +10,10 @@ use super::values::{choice, threads};
 
 /// Compute a study: variations of one case over axes of values or the rows of a table
 ///
-/// Each case is a folder DIR/cases/0001 with its case.toml and its results. DIR/table.csv, table.h5 and
-/// study.html summarise all cases. Any number of processes, on machines with a common file system, may work
-/// on one study at the same time. If one is stopped or killed, run the same command again. The exit code is 1
-/// if a case has failed.
+/// Each case is a folder DIR/cases/0001 with its case.toml and its results. DIR/table.csv and study.html
+/// summarise all cases. Any number of processes, on machines with a common file system, may work on one study
+/// at the same time. If one is stopped or killed, run the same command again. The exit code is 1 if a case
+/// has failed.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  asperity example study\n  asperity study study/load.toml\n  asperity study load.toml --task \
@@ -32,7 +32,7 @@ pub(crate) struct Study {
     /// Compute nothing; print the state of the cases and which are running
     #[arg(long, conflicts_with_all = ["collect", "retry"])]
     pub(crate) list: bool,
-    /// Compute nothing; write the tables and the page of the finished cases
+    /// Compute nothing; write the table and the page of the finished cases
     #[arg(long, conflicts_with = "retry")]
     pub(crate) collect: bool,
     /// Repeat failed cases

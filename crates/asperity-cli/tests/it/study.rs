@@ -442,10 +442,8 @@ fn tasks_share_a_study_and_the_last_makes_the_tables() {
             fs::remove_file(path("table.csv")).unwrap();
         }
     }
-    for name in ["table.csv", "table.h5"] {
-        let [found, whole] = ["load", "whole"].map(|study| contents(&folder, &format!("{study}/{name}")));
-        assert!(found == whole, "{name}");
-    }
+    let [found, whole] = ["load", "whole"].map(|study| contents(&folder, &format!("{study}/table.csv")));
+    assert!(found == whole);
 }
 
 #[test]
@@ -491,7 +489,7 @@ fn processes_that_are_killed_at_random_lose_no_case_and_count_none_twice() {
     let folder = folder_with(&axes(study));
     add_motion(&folder);
     ok(&asperity(&folder, "study load.toml --out whole"));
-    let whole = ["table.csv", "table.h5", "plan.csv"].map(|name| contents(&folder, &format!("whole/{name}")));
+    let whole = ["table.csv", "plan.csv"].map(|name| contents(&folder, &format!("whole/{name}")));
     let mut random = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap().as_nanos() as u64;
     let mut below = |n: u64| {
         random = random.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -521,7 +519,7 @@ fn processes_that_are_killed_at_random_lose_no_case_and_count_none_twice() {
             assert!(process.wait().unwrap().success());
         }
         ok(&asperity(&folder, &format!("study load.toml --out killed-{round}")));
-        for (name, whole) in ["table.csv", "table.h5", "plan.csv"].iter().zip(&whole) {
+        for (name, whole) in ["table.csv", "plan.csv"].iter().zip(&whole) {
             assert!(contents(&folder, &format!("killed-{round}/{name}")) == *whole, "round {round}: {name}");
         }
         let there = files(&folder.path().join(format!("killed-{round}")));

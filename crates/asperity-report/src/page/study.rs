@@ -126,10 +126,7 @@ fn about(study: &Study, table: &Table) -> String {
     let rest = [
         ("time of all cases".to_owned(), format_time(time)),
         ("cases with warnings".to_owned(), warned.to_string()),
-        (
-            "numbers".to_owned(),
-            "<a href=\"table.csv\">table.csv</a>, <a href=\"table.h5\">table.h5</a>".to_owned(),
-        ),
+        ("numbers".to_owned(), "<a href=\"table.csv\">table.csv</a>".to_owned()),
     ];
     facts(axes.chain(rest))
 }

@@ -6,7 +6,7 @@
 //!       files.json          digests of the files named in the study, when the plan was made
 //!       cases/0001/         case.toml and the results of a run, created when a process takes the case
 //!       cases/0002/failed.json    in place of results: the reason of the failure
-//!       table.csv table.h5  a row per case, or per point of its sweep: the values of its axes, the numbers of its results
+//!       table.csv           a row per case, or per point of its sweep: the values of its axes, the numbers of its results
 //! ```
 //!
 //! A case is done when its `summary.json` exists. Processes share only these files and their locks.

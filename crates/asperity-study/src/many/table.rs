@@ -13,9 +13,8 @@ use super::folder::Folder;
 use super::plan::Study;
 use super::points;
 use crate::cell::quoted;
-use crate::columns::{CASE, DONE, MESSAGE, STATE, WARNINGS, declared, headed, unit_of_column};
+use crate::columns::{CASE, MESSAGE, STATE, WARNINGS, declared, headed};
 use crate::io::atomic;
-use crate::io::fields::FieldFile;
 use crate::joined::{self, Cell, MARK};
 use crate::results::{NO_LOCKS, Results};
 use crate::summary::{Outcome, RunningIn, Summary};
@@ -178,54 +177,6 @@ impl Table {
         }
         csv
     }
-
-    /// Writes the table as HDF5, atomically: one dataset per column, with its unit, along the cases. For
-    /// values that are texts, the dataset contains indices, and a file attribute `KEY: words` the texts, one
-    /// per line.
-    ///
-    /// # Errors
-    /// [`asperity_base::Error::File`].
-    pub fn write_hdf5(&self, path: &Path) -> Result<()> {
-        let mut file = FieldFile::new(path);
-        file.set("version", env!("CARGO_PKG_VERSION"));
-        let mut add = |name: &str, unit: &str, value: &dyn Fn(&Row) -> f64| {
-            let values: Vec<f64> = self.rows.iter().map(value).collect();
-            if !values.is_empty() {
-                file.add_series(name, unit, "case", 1.0, 1.0, &values);
-            }
-        };
-        add(CASE.name, CASE.unit, &|row| row.case as f64);
-        add(DONE.name, DONE.unit, &|row| f64::from(u8::from(row.failure.is_none())));
-        for (n, axis) in self.axes.iter().enumerate() {
-            // An index of texts has no unit; a pure number has 1.
-            let unit = if axis.numbers().is_some() && axis.unit().is_empty() {
-                "1".to_owned()
-            } else {
-                axis.unit().to_owned()
-            };
-            add(axis.key(), &unit, &|row| {
-                let value = |index: usize| axis.numbers().map_or(index as f64, |numbers| numbers[index]);
-                row.indices.get(n).map_or(f64::NAN, |index| value(*index as usize))
-            });
-        }
-        for (n, column) in self.columns.iter().enumerate() {
-            let unit = unit_of_column(&column.name).unwrap_or_default();
-            add(&column.name, unit, &|row| row.numbers.get(n).copied().unwrap_or(f64::NAN));
-        }
-        for axis in self.axes.iter().filter(|axis| axis.numbers().is_none()) {
-            let words: Vec<String> = (0..axis.len()).map(|index| axis.cell(index)).collect();
-            file.set(&format!("{}: words", axis.key()), words.join("\n").as_str());
-        }
-        let failures: Vec<String> = self
-            .rows
-            .iter()
-            .filter_map(|row| Some(format!("{:04}: {}", row.case, row.failure.as_ref()?.replace('\n', " "))))
-            .collect();
-        if !failures.is_empty() {
-            file.set("failures", failures.join("\n").as_str());
-        }
-        file.write()
-    }
 }
 
 /// Data of a finished or failed case.
@@ -372,6 +323,7 @@ mod tests {
     use serde_json::{Value, json};
 
     use super::*;
+    use crate::columns::unit_of_column;
 
     /// Numbers of a summary by name; each has a unit.
     fn numbers_of(summary: &Summary) -> BTreeMap<String, f64> {
