@@ -1,8 +1,8 @@
 //! Heights of one body on a grid.
 
-use asperity_base::error::{Error, Result};
+use asperity_base::error::{Error, Result, check_in};
 use asperity_base::grid::{Field, Grid};
-use asperity_base::units::Dimension;
+use asperity_base::units::{Dimension, Metre};
 
 /// Heights of one body on a grid, in metres; an undefined sample is NaN.
 #[derive(Debug, Clone)]
@@ -25,17 +25,11 @@ impl Topography {
                 right: format!("{:?}", heights.shape()),
             });
         }
-        match heights.iter().find(|z| z.is_infinite()) {
-            Some(&value) => Err(Error::OutOfRange {
-                quantity: "height",
-                dimension: Some(Dimension::Length),
-                value,
-                expected: "a finite height, or NaN where the sample is undefined".into(),
-            }),
-            // Copied to row order if the memory order differs.
-            None if heights.is_standard_layout() => Ok(Self { grid, heights }),
-            None => Ok(Self { grid, heights: heights.as_standard_layout().into_owned() }),
-        }
+        check_heights(heights.iter())?;
+        // Copied to row order if the memory order differs.
+        let is_in_order = heights.is_standard_layout();
+        let heights = if is_in_order { heights } else { heights.as_standard_layout().into_owned() };
+        Ok(Self { grid, heights })
     }
 
     /// The grid of the heights.
@@ -88,6 +82,17 @@ impl Topography {
     pub fn mean(&self) -> f64 {
         let defined = self.heights.iter().filter(|z| !z.is_nan());
         defined.sum::<f64>() / self.defined() as f64
+    }
+}
+
+/// Checks that each height is finite, or NaN if undefined.
+pub(crate) fn check_heights<'a>(mut heights: impl Iterator<Item = &'a Metre>) -> Result<()> {
+    match heights.find(|z| z.is_infinite()) {
+        Some(&value) => {
+            let expected = "a finite height, or NaN where the sample is undefined";
+            check_in(Dimension::Length, "height", value, false, expected)
+        }
+        None => Ok(()),
     }
 }
 

@@ -14,7 +14,7 @@
 //! of a topography (kind 4), and images of a thickness (0x80).
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
-use super::{Decoded, Fault, LengthUnit, Scan, choose, distinct, from_last_y_to_first, usable_pitch};
+use super::{Decoded, Fault, Scan, choose, distinct, from_last_y_to_first};
 use asperity_base::error::Defect;
 
 /// First bytes of the file.
@@ -34,16 +34,8 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let mut heights = raster.heights(|number| if number == 1.0 { f64::NAN } else { number * unit });
     from_last_y_to_first(&mut heights);
     let [nx, ny] = raster.shape;
-    let pitch = usable_pitch([file.lengths[0] / nx as f64, file.lengths[1] / ny as f64]);
-    Ok(Scan {
-        format: "frt",
-        channel: channels[chosen].clone(),
-        channels,
-        pitch,
-        heights,
-        unit: LengthUnit::Known,
-        lines: None,
-    })
+    let pitch = [file.lengths[0] / nx as f64, file.lengths[1] / ny as f64];
+    Ok(Scan::of_channel("frt", channels, chosen, pitch, heights))
 }
 
 /// The required parts of the blocks.

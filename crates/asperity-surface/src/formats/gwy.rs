@@ -15,7 +15,7 @@ use std::path::Path;
 
 use super::binary::{Cursor, Number, Order, Raster, shape, text};
 use super::words::unit_of_length;
-use super::{Decoded, Fault, LengthUnit, ONLY_CHANNEL, Scan, choose, distinct, usable_pitch};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, choose, distinct};
 use asperity_base::error::{Defect, Result};
 use asperity_base::grid::{Field, Grid};
 use asperity_base::io::atomic;
@@ -92,15 +92,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
         _ => None,
     };
     let (pitch, heights) = heights(field, mask.as_ref()).map_err(fault)?;
-    Ok(Scan {
-        format: "gwy",
-        channel: channels[chosen].clone(),
-        channels,
-        pitch: usable_pitch(pitch),
-        heights,
-        unit: LengthUnit::Known,
-        lines: None,
-    })
+    Ok(Scan::of_channel("gwy", channels, chosen, pitch, heights))
 }
 
 type Outcome<T> = std::result::Result<T, Defect>;

@@ -13,7 +13,7 @@ use super::binary::shape;
 use super::header::Header;
 use super::numbers::{Part, matrix};
 use super::words::{excerpt, unit_of_length};
-use super::{Decoded, Fault, LengthUnit, ONLY_CHANNEL, Scan, choose, finite, usable_pitch};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, choose, finite};
 use asperity_base::error::Defect;
 use asperity_base::grid::Field;
 
@@ -38,17 +38,8 @@ pub(super) fn decode(text: &str, channel: Option<&str>) -> Option<Decoded> {
     let (_, format, read) = KINDS.iter().find(|(magic, ..)| text.starts_with(magic))?;
     let scan = |read: Heights| {
         let channels = vec![read.channel];
-        choose(&channels, channel)?;
-        let channel = channels[0].clone();
-        Ok(Scan {
-            format,
-            channel,
-            channels,
-            pitch: usable_pitch(read.pitch),
-            heights: read.heights,
-            unit: LengthUnit::Known,
-            lines: None,
-        })
+        let chosen = choose(&channels, channel)?;
+        Ok(Scan::of_channel(format, channels, chosen, read.pitch, read.heights))
     };
     Some(read(text).map_err(|defect| Fault::defect(format, defect)).and_then(scan))
 }

@@ -217,6 +217,18 @@ impl Topography {
 }
 
 impl Scan {
+    /// The chosen channel of a file that has the unit of its heights. A pitch that is not usable is left out.
+    fn of_channel(
+        format: &'static str,
+        channels: Vec<String>,
+        chosen: usize,
+        pitch: [Metre; 2],
+        heights: Field,
+    ) -> Self {
+        let (channel, pitch) = (channels[chosen].clone(), usable_pitch(pitch));
+        Self { format, channel, channels, pitch, heights, unit: LengthUnit::Known, lines: None }
+    }
+
     /// The chosen matrix of a file whose matrices have neither unit nor pitch.
     fn of_matrix(format: &'static str, channels: Vec<String>, chosen: usize, heights: Field) -> Self {
         Self {
@@ -467,15 +479,7 @@ fn only(
 ) -> Decoded {
     let channels = only_channel(channel)?;
     let (pitch, heights) = read().map_err(|defect| Fault::defect(format, defect))?;
-    Ok(Scan {
-        format,
-        channel: channels[0].clone(),
-        channels,
-        pitch: usable_pitch(pitch),
-        heights,
-        unit: LengthUnit::Known,
-        lines: None,
-    })
+    Ok(Scan::of_channel(format, channels, 0, pitch, heights))
 }
 
 /// A channel of a file with several, whose heights are read only if it is chosen.
@@ -506,15 +510,7 @@ fn several(
     let chosen = choose(&channels, channel)?;
     let Channel { pitch, unit, heights, .. } = found.swap_remove(chosen);
     let heights = heights().map_err(fault)?;
-    Ok(Scan {
-        format,
-        channel: channels[chosen].clone(),
-        channels,
-        pitch: usable_pitch(pitch),
-        heights,
-        unit,
-        lines: None,
-    })
+    Ok(Scan { unit, ..Scan::of_channel(format, channels, chosen, pitch, heights) })
 }
 
 /// Returns the product of the sizes in a header, if it is an accepted number of heights.

@@ -5,8 +5,7 @@
 use std::path::Path;
 
 use super::binary::{Number, Order, Raster};
-use super::{Decoded, Fault, LengthUnit, Scan, cells, only_channel};
-use crate::Axis;
+use super::{Decoded, Fault, Scan, cells, only_channel};
 use asperity_base::error::{Defect, Result};
 use asperity_base::grid::Field;
 use asperity_base::io::atomic;
@@ -36,15 +35,7 @@ pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let channels = only_channel(channel)?;
     let heights = array(bytes).map_err(|defect| Fault::defect("npy", defect))?;
-    Ok(Scan {
-        format: "npy",
-        channel: channels[0].clone(),
-        channels,
-        pitch: None,
-        heights,
-        unit: LengthUnit::Metres,
-        lines: Some(Axis::Y),
-    })
+    Ok(Scan::of_matrix("npy", channels, 0, heights))
 }
 
 /// Reads a matrix.

@@ -9,7 +9,7 @@
 use std::collections::HashMap;
 
 use super::binary::{Cursor, Number, Order, Raster, shape, text};
-use super::{Decoded, Fault, LengthUnit, Scan, choose, distinct, from_last_y_to_first, usable_pitch};
+use super::{Decoded, Fault, Scan, choose, distinct, from_last_y_to_first};
 use asperity_base::error::Defect;
 use asperity_base::grid::Field;
 
@@ -30,16 +30,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let heights = heights(arrays[chosen].data, &numbers).map_err(fault)?;
     let pixel = numbers.get("Pixel_size").copied().unwrap_or(f64::NAN) * 1e-3;
     let aspect = numbers.get("Aspect").copied().unwrap_or(1.0);
-    let pitch = usable_pitch([pixel, pixel * aspect]);
-    Ok(Scan {
-        format: "opd",
-        channel: channels[chosen].clone(),
-        channels,
-        pitch,
-        heights,
-        unit: LengthUnit::Known,
-        lines: None,
-    })
+    Ok(Scan::of_channel("opd", channels, chosen, [pixel, pixel * aspect], heights))
 }
 
 const ARRAY: u16 = 3;

@@ -20,7 +20,7 @@ use std::io::Read;
 
 use super::binary::{Number, Order, Raster, text};
 use super::words::unit_of_length;
-use super::{Decoded, Fault, LengthUnit, ONLY_CHANNEL, Scan, cells, choose, distinct, usable_pitch};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, cells, choose, distinct};
 use asperity_base::error::Defect;
 use asperity_base::grid::Field;
 use asperity_base::units::Metre;
@@ -32,16 +32,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let chosen = choose(&channels, channel)?;
     let object = &objects[chosen];
     let heights = object.heights().map_err(fault)?;
-    let channel = channels[chosen].clone();
-    Ok(Scan {
-        format: "sur",
-        channel,
-        channels,
-        pitch: usable_pitch(object.pitch),
-        heights,
-        unit: LengthUnit::Known,
-        lines: None,
-    })
+    Ok(Scan::of_channel("sur", channels, chosen, object.pitch, heights))
 }
 
 const HEADER: usize = 512;

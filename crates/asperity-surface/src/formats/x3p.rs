@@ -16,7 +16,7 @@ use zip::write::{SimpleFileOptions, ZipWriter};
 
 use super::binary::{Number, Order, Raster};
 use super::foreign::{self, Foreign};
-use super::{Decoded, Fault, LengthUnit, ONLY_CHANNEL, Scan, cells, choose, finite, usable_pitch, x_fastest};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, cells, choose, finite, x_fastest};
 use asperity_base::error::{Defect, Error, Result};
 use asperity_base::grid::{Field, Grid};
 use asperity_base::io::atomic;
@@ -155,16 +155,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     };
     let layer = choose(&channels, channel)?;
     let heights = header.heights(root, &mut archive, layer).map_err(fault)?;
-    let channel = channels[layer].clone();
-    Ok(Scan {
-        format: "x3p",
-        channel,
-        channels,
-        pitch: usable_pitch(header.increments),
-        heights,
-        unit: LengthUnit::Known,
-        lines: None,
-    })
+    Ok(Scan::of_channel("x3p", channels, layer, header.increments, heights))
 }
 
 /// Largest number of attributes, and of nested elements: the format has about five of each.

@@ -6,8 +6,9 @@ mod parameters;
 
 pub use parameters::ProfileParameters;
 
+use crate::topography::check_heights;
 use crate::{Axis, BearingCurve, Topography};
-use asperity_base::error::{Error, Result, check, check_in};
+use asperity_base::error::{Result, check, check_in};
 use asperity_base::units::{Dimension, Metre};
 
 /// Heights along a line at uniform spacing, in metres; an undefined sample is NaN.
@@ -30,15 +31,8 @@ impl Profile {
     pub fn new(pitch: Metre, heights: Vec<Metre>) -> Result<Self> {
         check_in(Dimension::Length, "pitch", pitch, pitch > 0.0 && pitch.is_finite(), "a positive length")?;
         check("number of heights", heights.len() as f64, !heights.is_empty(), "at least 1")?;
-        match heights.iter().find(|z| z.is_infinite()) {
-            Some(&value) => Err(Error::OutOfRange {
-                quantity: "height",
-                dimension: Some(Dimension::Length),
-                value,
-                expected: "a finite height, or NaN where the sample is undefined".into(),
-            }),
-            None => Ok(Self { pitch, heights, section: None }),
-        }
+        check_heights(heights.iter())?;
+        Ok(Self { pitch, heights, section: None })
     }
 
     /// Distance between two samples.
