@@ -188,37 +188,30 @@ impl<'a> Sizes<'a> {
         Compliances::new(&self.case.lower.material, &self.case.upper.material).ok()
     }
 
-    /// Number of cells used to make each surface, and of fields on them.
-    fn making(&self) -> [[f64; 2]; 2] {
+    fn surfaces(&self) -> Surfaces {
         let making = |body: &Body, grid: &Grid, other: &Grid| {
-            let cells = grid.shape[0] as f64 * grid.shape[1] as f64;
-            let layers = body.topography.plus.iter().map(|layer| match layer {
-                Layer::Generate { generate, .. } => generate.cells(grid),
-                Layer::Form { .. } => cells,
-            });
-            match &body.topography.source {
+            let [made, fields] = match &body.topography.source {
                 // A spectrum, noise, heights.
                 Source::Generate { generate, .. } => {
-                    let cells =
-                        body.topography.made_on(Some(*other)).map_or(cells, |grid| generate.cells(&grid));
-                    [layers.fold(cells, f64::max), 3.0]
+                    let on = body.topography.made_on(Some(*other));
+                    [on.map_or(cells(grid), |grid| generate.cells(&grid)), 3.0]
                 }
-                Source::File { .. } | Source::Given { .. } => [layers.fold(cells, f64::max), 3.0],
+                Source::File { .. } | Source::Given { .. } => [cells(grid), 3.0],
                 Source::Form { shape, .. } => {
                     let shape = shape.unwrap_or(other.shape);
-                    [layers.fold(shape[0] as f64 * shape[1] as f64, f64::max), 2.0]
+                    [shape[0] as f64 * shape[1] as f64, 2.0]
                 }
-            }
+            };
+            let layers = body.topography.plus.iter().map(|layer| match layer {
+                Layer::Generate { generate, .. } => generate.cells(grid),
+                Layer::Form { .. } => cells(grid),
+            });
+            NUMBER * fields * layers.fold(made, f64::max)
         };
         let Self { case, lower, upper, .. } = self;
-        [making(&case.lower, lower, upper), making(&case.upper, upper, lower)]
-    }
-
-    fn surfaces(&self) -> Surfaces {
-        let bytes =
-            [&self.lower, &self.upper].map(|grid| NUMBER * grid.shape[0] as f64 * grid.shape[1] as f64);
-        let [lower, upper] = self.making().map(|[cells, fields]| NUMBER * fields * cells);
-        Surfaces { kept: bytes[0] + bytes[1], making: lower.max(bytes[0] + upper) }
+        let kept = [lower, upper].map(|grid| NUMBER * cells(grid));
+        let making = [making(&case.lower, lower, upper), making(&case.upper, upper, lower)];
+        Surfaces { kept: kept[0] + kept[1], making: making[0].max(kept[0] + making[1]) }
     }
 
     fn memory(&self, threads: usize) -> Memory {
@@ -301,7 +294,7 @@ impl<'a> Sizes<'a> {
         let bodies = [(&self.case.lower, &self.lower), (&self.case.upper, &self.upper)].into_iter();
         bodies
             .filter(|(body, _)| body.plasticity.is_some())
-            .map(move |(_, grid)| (grid.shape[0] as f64 * grid.shape[1] as f64 * layers, periodic))
+            .map(move |(_, grid)| (cells(grid) * layers, periodic))
     }
 
     /// Work of the operator applications of elasto-plastic bodies.
@@ -492,7 +485,7 @@ impl<'a> Sizes<'a> {
 
     /// Number of cells of both bodies together.
     fn cells(&self) -> f64 {
-        [&self.lower, &self.upper].map(|grid| grid.shape[0] as f64 * grid.shape[1] as f64).iter().sum()
+        cells(&self.lower) + cells(&self.upper)
     }
 
     /// Number of positions of a pass whose pressures are stored, and of their cells.
@@ -518,6 +511,10 @@ impl<'a> Sizes<'a> {
         let work = FIGURE * figures + PICTURE * pictures + DRAWN_CELL * (self.cells() + cells);
         START + work / (threads.clamp(1, 4) as f64).powf(EFFICIENCY)
     }
+}
+
+fn cells(grid: &Grid) -> f64 {
+    grid.shape[0] as f64 * grid.shape[1] as f64
 }
 
 /// The cost of a contact.
