@@ -203,6 +203,14 @@ impl<'a> FilmProblem<'a> {
         }
     }
 
+    /// Returns the oil in each cell of a film, ρh(1 − θ)/ρ₀.
+    pub(super) fn oil_in(&self, operator: &mut dyn Operator, film: &Film) -> Vec<f64> {
+        let flow = self.flow(*operator.grid(), operator.boundary());
+        let state = self.state(film);
+        let h = self.newton(operator, &flow, film).film(&state);
+        (0..h.len()).map(|k| flow.stored(state.oil[k], state.cavity[k], h[k])).collect()
+    }
+
     /// Returns the norm of all residuals of a film.
     ///
     /// # Errors

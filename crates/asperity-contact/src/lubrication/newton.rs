@@ -178,7 +178,8 @@ impl Newton<'_> {
         displacement.into_raw_vec_and_offset().0
     }
 
-    fn film(&mut self, state: &State) -> Vec<f64> {
+    /// Returns the film thickness under a state.
+    pub(super) fn film(&mut self, state: &State) -> Vec<f64> {
         let mut h = self.displacement(&state.oil, &state.solids);
         h.iter_mut().zip(self.gap).for_each(|(h, gap)| *h += gap - state.approach);
         h

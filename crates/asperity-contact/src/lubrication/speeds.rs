@@ -1,6 +1,6 @@
 //! Films at one speed after another.
 
-use super::film::{Film, FilmParams, FilmProblem, FilmSolution, solve_film};
+use super::film::{Film, FilmParams, FilmProblem, FilmSolution, OilStep, solve_film};
 use crate::error::{Error, Result};
 use crate::operator::Operator;
 use crate::solver::{Bounds, Control, Params, solve_normal};
@@ -8,11 +8,11 @@ use crate::solver::{Bounds, Control, Params, solve_normal};
 /// Largest ratio of two speeds at which one solution is tried as the start of the other.
 const NEAR: f64 = 10.0;
 
-/// Ratio of the first speed on the way from the dry contact to the one that is wanted.
-const SLOW: f64 = 1e-4;
+/// Factor between one step of time and the next on the way to a steady film.
+const LONGER: f64 = 3.0;
 
-/// Ratio of two speeds on the way to the one that is wanted, at first and at least.
-const STRIDES: [f64; 2] = [4.0, 1.05];
+/// Shortest step of time on that way, in times that a surface needs for a cell.
+const SHORTEST: f64 = 1e-3;
 
 /// Thickness of the films that are tried as the start of a fast one, in boundary films.
 const THICKNESSES: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
@@ -20,8 +20,8 @@ const THICKNESSES: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 /// The films of two bodies at the speeds of a Stribeck curve, in any order.
 ///
 /// A film starts from the one at the nearest speed. Where there is none, or if it fails, it starts from a full
-/// film under the pressure of the dry contact, from the dry contact itself, and at last from the films on the way
-/// from the slowest speeds.
+/// film under the pressure of the dry contact, and from the dry contact itself. At last the film is followed in time
+/// from the dry contact.
 pub struct FilmSpeeds<'a> {
     problem: FilmProblem<'a>,
     params: FilmParams,
@@ -69,23 +69,31 @@ impl<'a> FilmSpeeds<'a> {
                 return Ok(solution);
             }
         }
-        self.approached_from_slow(operator, speed)
+        self.followed(operator, speed)
     }
 
-    /// Walks from the dry contact to a speed; strides become shorter where one fails.
-    fn approached_from_slow(&self, operator: &mut dyn Operator, speed: f64) -> Result<FilmSolution> {
-        let [mut stride, least] = STRIDES;
+    /// Follows the film in time from the dry contact to its steady state. Steps of time become longer while they
+    /// succeed.
+    fn followed(&self, operator: &mut dyn Operator, speed: f64) -> Result<FilmSolution> {
+        let problem = FilmProblem { speed, ..self.problem };
+        let transit = operator.grid().pitch[0] / speed;
+        let mut duration = transit;
         let mut film = self.dry.clone();
-        let mut reached = SLOW * speed / stride;
+        let mut oil = problem.oil_in(operator, &film);
         loop {
-            let next = (reached * stride).min(speed);
-            match self.tried(operator, next, &film)? {
-                Some(solution) if next == speed => return Ok(solution),
-                Some(solution) => (film, reached) = (solution.film, next),
-                None => stride = stride.sqrt(),
-            }
-            if stride < least {
-                return self.solve(operator, speed, &film);
+            let step = Some(OilStep { before: &oil, duration });
+            match solve_film(operator, &FilmProblem { step, ..problem }, &film, &self.params) {
+                Ok(solution) => {
+                    (film, oil) = (solution.film, solution.oil);
+                    duration *= LONGER;
+                    if let Some(solution) = self.tried(operator, speed, &film)? {
+                        return Ok(solution);
+                    }
+                }
+                Err(Error::NotConverged { .. }) if duration > SHORTEST * transit => {
+                    duration /= LONGER * LONGER
+                }
+                Err(error) => return Err(error),
             }
         }
     }
