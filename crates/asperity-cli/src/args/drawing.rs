@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::values::{Pair, choice, factor, positive_length, range};
+use super::values::{choice, factor, positive_length, range};
 use asperity_report::draw::{Format, Paper};
 
 /// The file type, resolution and width of figures.
@@ -29,7 +29,7 @@ pub(crate) struct RangedDrawing {
     drawing: Drawing,
     /// Range of the colours, or of the y axis of curves, such as 0,2GPa
     #[arg(long, value_name = "LOW,HIGH", value_parser = range, allow_hyphen_values = true)]
-    range: Option<Pair>,
+    range: Option<[f64; 2]>,
 }
 
 impl Drawing {
@@ -49,13 +49,13 @@ impl Drawing {
 impl RangedDrawing {
     /// Returns a paper for each file type.
     pub(crate) fn papers(&self) -> Vec<Paper> {
-        let range = self.range();
+        let range = self.range;
         self.drawing.papers().into_iter().map(|paper| Paper { range, ..paper }).collect()
     }
 
     /// Returns the given range.
     pub(crate) fn range(&self) -> Option<[f64; 2]> {
-        self.range.map(|range| range.0)
+        self.range
     }
 }
 

@@ -2,15 +2,14 @@
 
 use std::path::PathBuf;
 
+use asperity::study::case::Layer;
 use asperity::surface::{
     Amplitude, Autocorrelation, Axis, Band, Decay, Form, Generator, Groove, HeightDistribution, LowPass,
     SelfAffine,
 };
 use clap::{Args, Subcommand};
 
-use super::values::{
-    Pair, Shape, angle, choice, default, factor, lengths, positive_length, shape, wavelengths,
-};
+use super::values::{angle, choice, default, factor, lengths, positive_length, shape, wavelengths};
 
 /// Generate a random topography or an ideal form
 ///
@@ -40,7 +39,7 @@ pub(crate) enum Source {
         sq: f64,
         /// Shortest wavelength, one value or two along x and y: 8um, or 8um,16um
         #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
-        cutoff: Pair,
+        cutoff: [f64; 2],
         /// Shape of the pass band; elliptic is circular with a single cut-off
         #[arg(long, default_value = default::<Band>(), value_parser = choice::<Band>())]
         band: Band,
@@ -58,7 +57,7 @@ pub(crate) enum Source {
         sq: f64,
         /// Length over which the autocorrelation decays to 10 %, one value or two (along and across the lay)
         #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
-        correlation_length: Pair,
+        correlation_length: [f64; 2],
         /// Decay of the autocorrelation
         #[arg(long, default_value = default::<Decay>(), value_parser = choice::<Decay>())]
         decay: Decay,
@@ -101,7 +100,7 @@ pub(crate) enum Source {
     Ellipsoid {
         /// Principal radii of curvature, in the planes along x and along y: 1mm,2mm
         #[arg(long, value_name = "LENGTH,LENGTH", value_parser = lengths)]
-        radius: Pair,
+        radius: [f64; 2],
         #[command(flatten)]
         target: Target,
     },
@@ -136,7 +135,7 @@ pub(crate) enum Source {
         amplitude: f64,
         /// Wavelength, one value or two along x and y; inf for no wave: 8um, or 8um,inf
         #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = wavelengths)]
-        wavelength: Pair,
+        wavelength: [f64; 2],
         #[command(flatten)]
         target: Target,
     },
@@ -169,15 +168,18 @@ pub(crate) struct Roughness {
     sdq: Option<f64>,
 }
 
+const GAUSSIAN: HeightDistribution = HeightDistribution::GAUSSIAN;
+
 /// The distribution of heights.
 #[derive(Debug, Args)]
 pub(crate) struct Heights {
-    /// Skewness Ssk; by default 0
-    #[arg(long, value_name = "NUMBER", requires = "sku", allow_negative_numbers = true)]
-    ssk: Option<f64>,
-    /// Kurtosis Sku, from 1.1 (Ssk² + 1) to 50; by default 3, Gaussian
-    #[arg(long, value_name = "NUMBER")]
-    sku: Option<f64>,
+    /// Skewness Ssk
+    #[arg(long, value_name = "NUMBER", default_value_t = GAUSSIAN.ssk, requires = "sku")]
+    #[arg(allow_negative_numbers = true)]
+    ssk: f64,
+    /// Kurtosis Sku, from 1.1 (Ssk² + 1) to 50; 3 for Gaussian heights
+    #[arg(long, value_name = "NUMBER", default_value_t = GAUSSIAN.sku)]
+    sku: f64,
 }
 
 #[derive(Debug, Args)]
@@ -198,87 +200,64 @@ pub(crate) struct Seed {
 pub(crate) struct Target {
     /// Number of cells along x and y: 256x256
     #[arg(long, value_name = "NXxNY", value_parser = shape)]
-    pub(crate) shape: Shape,
+    pub(crate) shape: [usize; 2],
     /// Size of a cell, one value or two along x and y: 0.5um, or 0.5um,1um
     #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
-    pub(crate) pitch: Pair,
+    pub(crate) pitch: [f64; 2],
     /// Add the heights of this topography, of the same shape; may be repeated
     #[arg(long, value_name = "FILE")]
     pub(crate) plus: Vec<PathBuf>,
-    #[command(flatten)]
-    pub(crate) out: Out,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct Out {
     /// File to write; its name ends in .npy, .x3p, .sdf, .gwy, .vtk or .png
-    #[arg(long = "out", value_name = "FILE")]
-    pub(crate) path: PathBuf,
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
     /// Replace the file if it exists
     #[arg(long)]
     pub(crate) overwrite: bool,
 }
 
-/// The topography that a [`Source`] generates.
-pub(crate) enum Recipe {
-    Random(Generator, u64),
-    Form(Form),
-}
-
 impl Source {
-    pub(crate) fn recipe(self) -> (Recipe, Target) {
-        match self {
+    /// Returns the heights that it generates, and the grid and the file for them.
+    pub(crate) fn layer(self) -> (Layer, Target) {
+        let random = |generate, seed: Seed| Layer::Generate { generate, seed: seed.seed };
+        let (form, target) = match self {
             Self::LowPass { sq, cutoff, band, heights, seed, target } => {
-                let method = LowPass { sq, cutoff: cutoff.0, band, heights: heights.distribution() };
-                (Recipe::Random(Generator::LowPass(method), seed.seed), target)
+                let method = LowPass { sq, cutoff, band, heights: heights.distribution() };
+                return (random(Generator::LowPass(method), seed), target);
             }
             Self::Autocorrelation { sq, correlation_length, decay, lay, heights, seed, target } => {
-                let method = Autocorrelation {
-                    sq,
-                    correlation_length: correlation_length.0,
-                    decay,
-                    lay: lay.lay,
-                    heights: heights.distribution(),
-                };
-                (Recipe::Random(Generator::Autocorrelation(method), seed.seed), target)
+                let (Lay { lay }, heights) = (lay, heights.distribution());
+                let method = Autocorrelation { sq, correlation_length, decay, lay, heights };
+                return (random(Generator::Autocorrelation(method), seed), target);
             }
             Self::SelfAffine { amplitude, hurst, rolloff, shortest, seed, target } => {
-                let amplitude = amplitude.amplitude();
-                let method = SelfAffine { hurst, rolloff, shortest, amplitude };
-                (Recipe::Random(Generator::SelfAffine(method), seed.seed), target)
+                let method = SelfAffine { hurst, rolloff, shortest, amplitude: amplitude.amplitude() };
+                return (random(Generator::SelfAffine(method), seed), target);
             }
-            Self::Sphere { radius, target } => (Recipe::Form(Form::Sphere { radius }), target),
-            Self::Ellipsoid { radius, target } => {
-                (Recipe::Form(Form::Ellipsoid { radius: radius.0 }), target)
-            }
-            Self::Cylinder { radius, axis, target } => {
-                (Recipe::Form(Form::Cylinder { radius, axis }), target)
-            }
-            Self::Cone { angle, target } => (Recipe::Form(Form::Cone { angle }), target),
-            Self::Flat { target } => (Recipe::Form(Form::Flat), target),
+            Self::Sphere { radius, target } => (Form::Sphere { radius }, target),
+            Self::Ellipsoid { radius, target } => (Form::Ellipsoid { radius }, target),
+            Self::Cylinder { radius, axis, target } => (Form::Cylinder { radius, axis }, target),
+            Self::Cone { angle, target } => (Form::Cone { angle }, target),
+            Self::Flat { target } => (Form::Flat, target),
             Self::Sinusoid { amplitude, wavelength, target } => {
-                (Recipe::Form(Form::Sinusoid { amplitude, wavelength: wavelength.0 }), target)
+                (Form::Sinusoid { amplitude, wavelength }, target)
             }
-            Self::Grooves { period, depth, profile, lay, target } => {
-                (Recipe::Form(Form::Grooves { period, depth, profile, lay: lay.lay }), target)
+            Self::Grooves { period, depth, profile, lay: Lay { lay }, target } => {
+                (Form::Grooves { period, depth, profile, lay }, target)
             }
-        }
+        };
+        (Layer::Form { form }, target)
     }
 }
 
 impl Heights {
     fn distribution(&self) -> HeightDistribution {
-        let HeightDistribution { ssk, sku } = HeightDistribution::GAUSSIAN;
-        HeightDistribution { ssk: self.ssk.unwrap_or(ssk), sku: self.sku.unwrap_or(sku) }
+        HeightDistribution { ssk: self.ssk, sku: self.sku }
     }
 }
 
 impl Roughness {
     fn amplitude(&self) -> Amplitude {
-        // The parser accepts exactly one.
-        match (self.sq, self.sdq) {
-            (Some(sq), _) => Amplitude::Sq(sq),
-            (None, sdq) => Amplitude::Sdq(sdq.unwrap_or(f64::NAN)),
-        }
+        let amplitude = self.sq.map(Amplitude::Sq).or(self.sdq.map(Amplitude::Sdq));
+        amplitude.expect("the parser accepts exactly one")
     }
 }

@@ -18,7 +18,7 @@ use clap_complete::Shell;
 use values::{choice, threads};
 
 pub(crate) use drawing::{Drawing, RangedDrawing};
-pub(crate) use generate::{Generate, Recipe};
+pub(crate) use generate::Generate;
 pub(crate) use pair::{Bodies, Contact, Init, Load, Materials, PairWriting, Slide, load, pair_of_materials};
 pub(crate) use study::Study;
 pub(crate) use surface::{Convert, Info, Input, PlotSurface, ReadingArguments, Surface};

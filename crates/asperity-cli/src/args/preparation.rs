@@ -3,7 +3,7 @@
 use asperity::surface::{Axis, Fill, Filter, Interpolation, Level, Preparation, Resample};
 use clap::Args;
 
-use super::values::{Window, angle, choice, default, factor, positive_length, resample, window};
+use super::values::{angle, choice, default, factor, positive_length, resample, window};
 
 /// Steps of the preparation, in this order.
 #[derive(Debug, Args)]
@@ -11,7 +11,7 @@ use super::values::{Window, angle, choice, default, factor, positive_length, res
 pub(crate) struct PreparationArguments {
     /// Part to keep, in samples
     #[arg(long, value_name = "X0,Y0,NX,NY", value_parser = window)]
-    window: Option<Window>,
+    window: Option<[usize; 4]>,
     /// Turn spikes and pits into missing samples: samples, in groups of up to about 5 × 5, that deviate from
     /// their surroundings by more than this number of (robust) standard deviations, such as 6
     #[arg(long, value_name = "FACTOR", value_parser = factor)]
@@ -54,7 +54,7 @@ impl PreparationArguments {
     /// Returns the preparation as a type of the library.
     pub(crate) fn preparation(&self) -> Preparation {
         Preparation {
-            window: self.window.map(|window| window.0),
+            window: self.window,
             despike: self.despike,
             fill: self.fill,
             level: self.level,

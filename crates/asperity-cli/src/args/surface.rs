@@ -9,7 +9,7 @@ use super::generate::Generate;
 use super::preparation::PreparationArguments;
 use asperity::surface::{Axis, ReadOptions};
 
-use super::values::{Pair, choice, lengths, positive_length, unit_of_length};
+use super::values::{choice, lengths, positive_length, unit_of_length};
 
 /// Generate, describe, draw and convert topographies
 #[derive(Debug, Subcommand)]
@@ -97,7 +97,7 @@ pub(crate) struct ReadingArguments {
     pub(crate) unit: Option<f64>,
     /// Pitch of a file without one: 0.5um, or 0.5um,1um
     #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
-    pub(crate) pitch: Option<Pair>,
+    pub(crate) pitch: Option<[f64; 2]>,
     /// Direction of a line of a matrix; default: x for text, y for arrays [ix, iy] (npy, npz, mat, HDF5)
     #[arg(long, value_name = "AXIS", value_parser = choice::<Axis>())]
     pub(crate) lines: Option<Axis>,

@@ -7,18 +7,6 @@ use asperity::surface::Resample;
 use asperity::units::{self, Dimension, MAX_COUNT, NUMBERS, UnitError};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
-/// Two lengths, along x and y.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Pair(pub(crate) [f64; 2]);
-
-/// Two numbers of cells.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Shape(pub(crate) [usize; 2]);
-
-/// x0, y0, nx, ny.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Window(pub(crate) [usize; 4]);
-
 /// A number of threads.
 pub(crate) fn threads(text: &str) -> Result<usize, String> {
     let count = text.parse().ok().filter(|count| (1..=MAX_THREADS).contains(count));
@@ -57,19 +45,20 @@ pub(crate) fn angle(text: &str) -> Result<f64, String> {
     if range.holds_signed(angle) { Ok(angle) } else { Err(format!("expected an angle of {range}")) }
 }
 
-fn pair(text: &str, read: impl Fn(&str) -> Result<f64, String>) -> Result<Pair, String> {
+fn pair(text: &str, read: impl Fn(&str) -> Result<f64, String>) -> Result<[f64; 2], String> {
     match text.split(',').collect::<Vec<_>>()[..] {
-        [both] => read(both).map(|both| Pair([both; 2])),
-        [x, y] => Ok(Pair([read(x)?, read(y)?])),
+        [both] => read(both).map(|both| [both; 2]),
+        [x, y] => Ok([read(x)?, read(y)?]),
         _ => Err("expected one length, or two with a comma between".to_owned()),
     }
 }
 
-pub(crate) fn lengths(text: &str) -> Result<Pair, String> {
+/// Two lengths, along x and y, or one for both.
+pub(crate) fn lengths(text: &str) -> Result<[f64; 2], String> {
     pair(text, positive_length)
 }
 
-pub(crate) fn wavelengths(text: &str) -> Result<Pair, String> {
+pub(crate) fn wavelengths(text: &str) -> Result<[f64; 2], String> {
     pair(text, |text| if text.trim() == "inf" { Ok(f64::INFINITY) } else { positive_length(text) })
 }
 
@@ -79,12 +68,13 @@ fn counts<const N: usize>(text: &str, separators: &[char], expected: &str) -> Re
     counts.and_then(|counts| counts.try_into().ok()).ok_or_else(|| format!("expected {expected}"))
 }
 
-pub(crate) fn shape(text: &str) -> Result<Shape, String> {
+/// Numbers of cells along x and y.
+pub(crate) fn shape(text: &str) -> Result<[usize; 2], String> {
     const EXPECTED: &str = "two whole numbers of at least 1, such as 256x256, and at most 2²⁸ cells";
     const MAX_CELLS: usize = 1 << 28;
     let shape: [usize; 2] = counts(text, &['x', '×', ','], EXPECTED)?;
     match shape[0].checked_mul(shape[1]) {
-        Some(1..=MAX_CELLS) => Ok(Shape(shape)),
+        Some(1..=MAX_CELLS) => Ok(shape),
         _ => Err(format!("expected {EXPECTED}")),
     }
 }
@@ -92,14 +82,14 @@ pub(crate) fn shape(text: &str) -> Result<Shape, String> {
 /// A shape, or a pitch.
 pub(crate) fn resample(text: &str) -> Result<Resample, String> {
     match shape(text) {
-        Ok(Shape(shape)) => Ok(Resample::Shape(shape)),
+        Ok(shape) => Ok(Resample::Shape(shape)),
         Err(error) if text.contains(['x', '×']) => Err(error),
-        Err(_) => lengths(text).map(|Pair(pitch)| Resample::Pitch(pitch)),
+        Err(_) => lengths(text).map(Resample::Pitch),
     }
 }
 
 /// Two quantities of any one kind, the first below the second.
-pub(crate) fn range(text: &str) -> Result<Pair, String> {
+pub(crate) fn range(text: &str) -> Result<[f64; 2], String> {
     const EXPECTED: &str = "two quantities with a comma between, the lower first, such as 0,2GPa";
     const KINDS: [Dimension; 3] = [Dimension::Length, Dimension::Pressure, Dimension::Force];
     let read = |text: &str| KINDS.iter().find_map(|kind| units::parse(text.trim(), *kind).ok());
@@ -107,7 +97,7 @@ pub(crate) fn range(text: &str) -> Result<Pair, String> {
         [Some(low), Some(high)] => [low, high],
         _ => return Err(format!("expected {EXPECTED}")),
     };
-    if low < high { Ok(Pair([low, high])) } else { Err(format!("expected {EXPECTED}")) }
+    if low < high { Ok([low, high]) } else { Err(format!("expected {EXPECTED}")) }
 }
 
 /// The surroundings along both axes, or along each.
@@ -126,8 +116,9 @@ pub(crate) fn factor(text: &str) -> Result<f64, String> {
     factor.ok_or_else(|| format!("expected a number above 0 such as 6, of {NUMBERS}"))
 }
 
-pub(crate) fn window(text: &str) -> Result<Window, String> {
-    counts(text, &[','], "four whole numbers x0,y0,nx,ny").map(Window)
+/// x0, y0, nx, ny.
+pub(crate) fn window(text: &str) -> Result<[usize; 4], String> {
+    counts(text, &[','], "four whole numbers x0,y0,nx,ny")
 }
 
 /// Parses the word of an option.
@@ -147,16 +138,16 @@ mod tests {
 
     #[test]
     fn lists_of_numbers_are_read_in_full_or_not_at_all() {
-        assert_eq!(shape("256x128").unwrap().0, [256, 128]);
-        assert_eq!(window("1, 2,3,4").unwrap().0, [1, 2, 3, 4]);
-        assert_eq!(wavelengths("8um,inf").unwrap().0, [8e-6, f64::INFINITY]);
+        assert_eq!(shape("256x128").unwrap(), [256, 128]);
+        assert_eq!(window("1, 2,3,4").unwrap(), [1, 2, 3, 4]);
+        assert_eq!(wavelengths("8um,inf").unwrap(), [8e-6, f64::INFINITY]);
         for text in ["256", "0x4", "4x-4", "4x4x4", "99999999x99999999", ""] {
             assert!(shape(text).is_err(), "{text}");
         }
         assert_eq!(resample("256x128"), Ok(Resample::Shape([256, 128])));
         assert_eq!(resample("0.5um,1um"), Ok(Resample::Pitch([0.5e-6, 1e-6])));
-        assert_eq!(range("-20nm, 0.1um").unwrap().0, [-20e-9, 0.1e-6]);
-        assert_eq!(range("0,2GPa").unwrap().0, [0.0, 2e9]);
+        assert_eq!(range("-20nm, 0.1um").unwrap(), [-20e-9, 0.1e-6]);
+        assert_eq!(range("0,2GPa").unwrap(), [0.0, 2e9]);
         assert!(range("2GPa,0").is_err() && range("1").is_err() && range("1 furlong,2").is_err());
         assert!(resample("0x4").is_err() && resample("4x4um").is_err());
         assert_eq!(boundary("periodic").unwrap(), Boundary::PERIODIC);

@@ -35,7 +35,7 @@ impl FileSurface {
             Err(error) => (asked.scan(file).map_err(|_| error)?, true),
         };
         let Scan { format, pitch: own_pitch, heights, .. } = scan;
-        let Some(pitch) = own_pitch.or(arguments.pitch.map(|pitch| pitch.0)) else {
+        let Some(pitch) = own_pitch.or(arguments.pitch) else {
             let message = format!("`{}` does not say how far its samples are apart", file.display());
             return Err(Failure::usage(message, Some("give their distance: --pitch 0.5um")));
         };

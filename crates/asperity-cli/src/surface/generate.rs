@@ -5,7 +5,7 @@ use asperity::units::{self, Dimension};
 
 use super::output::Output;
 use super::read;
-use crate::args::{Generate, ReadingArguments, Recipe};
+use crate::args::{Generate, ReadingArguments};
 use crate::machine;
 use crate::report::{Outcome, note};
 
@@ -13,14 +13,11 @@ use crate::report::{Outcome, note};
 const FIELDS: f64 = 4.0;
 
 pub(super) fn generate(arguments: Generate) -> Outcome {
-    let (recipe, target) = arguments.source.recipe();
-    let output = Output::new(&target.out.path, target.out.overwrite)?;
-    let grid = Grid::new(target.shape.0, target.pitch.0)?;
+    let (layer, target) = arguments.source.layer();
+    let output = Output::new(&target.out, target.overwrite)?;
+    let grid = Grid::new(target.shape, target.pitch)?;
     machine::holds(FIELDS * 8.0 * grid.cells() as f64)?;
-    let mut topography = match recipe {
-        Recipe::Random(generator, seed) => generator.generate(&grid, seed)?,
-        Recipe::Form(form) => form.on(&grid)?,
-    };
+    let mut topography = layer.on(&grid)?;
     for file in &target.plus {
         let reading = ReadingArguments { pitch: Some(target.pitch), ..ReadingArguments::default() };
         topography = topography.plus(&read(file, &reading)?.topography)?;
@@ -28,6 +25,6 @@ pub(super) fn generate(arguments: Generate) -> Outcome {
     output.write(&topography, Some(grid.pitch))?;
     let [nx, ny] = grid.shape;
     let sq = units::format(topography.sq(), Dimension::Length);
-    note(&format!("{}: {nx} × {ny} cells, Sq {sq}", target.out.path.display()));
+    note(&format!("{}: {nx} × {ny} cells, Sq {sq}", target.out.display()));
     Ok(())
 }

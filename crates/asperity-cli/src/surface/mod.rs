@@ -39,7 +39,7 @@ fn read(path: &Path, reading: &ReadingArguments) -> Outcome<ReadSurface> {
     if let (Some(own), Some(_)) = (scan.pitch, &reading.pitch) {
         return Err(has_pitch(path, own, &scan));
     }
-    let pitch = scan.pitch.or(reading.pitch.map(|pitch| pitch.0));
+    let pitch = scan.pitch.or(reading.pitch);
     let heights = std::mem::take(&mut scan.heights);
     let grid = Grid::new([heights.nrows(), heights.ncols()], pitch.unwrap_or([1.0; 2]))?;
     Ok(ReadSurface { topography: Topography::new(grid, heights)?, pitch, scan })
@@ -61,7 +61,7 @@ pub(crate) fn read_prepared(input: &Input) -> Outcome<ReadSurface> {
 /// own.
 pub(crate) fn read_beside(path: &Path, input: &Input, pitch: [Metre; 2]) -> Outcome<ReadSurface> {
     let mut scan = input.reading.options().scan(path)?;
-    let pitch = scan.pitch.or(input.reading.pitch.map(|pitch| pitch.0)).unwrap_or(pitch);
+    let pitch = scan.pitch.or(input.reading.pitch).unwrap_or(pitch);
     let heights = std::mem::take(&mut scan.heights);
     let topography = Topography::new(Grid::new([heights.nrows(), heights.ncols()], pitch)?, heights)?;
     let (topography, _) = input.preparing.preparation().apply(topography)?;
