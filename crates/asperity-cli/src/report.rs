@@ -154,14 +154,9 @@ fn code(error: &Error) -> u8 {
         | Error::PullOff { .. }
         | Error::NotFinite { .. }
         | Error::WornAway { .. } => 1,
-        Error::AtPosition { source, .. }
-        | Error::AtPoint { source, .. }
-        | Error::AtIncrement { source, .. }
-        | Error::AtPass { source, .. }
-        | Error::AtUpdate { source, .. } => code(source),
         Error::Interrupted => 130,
         Error::File { source, .. } => code_of_io(source),
-        _ => 2,
+        _ => error.cause_in_step().map_or(2, code),
     }
 }
 
@@ -339,11 +334,6 @@ fn hint(error: &Error) -> Option<String> {
                 LoadLimit::FullContact => "`control = \"step-load\"` in [motion], the load at every position",
             }
         )),
-        Error::AtPosition { source, .. }
-        | Error::AtPoint { source, .. }
-        | Error::AtIncrement { source, .. }
-        | Error::AtPass { source, .. }
-        | Error::AtUpdate { source, .. } => hint(source),
         Error::WornAway { .. } => Some(
             "check the law of the body: a `coefficient` is a volume over load and distance, as \"1e-7 mm3/(N m)\", and Archard's number is \
              `dimensionless`; or slide a shorter distance"
@@ -357,13 +347,11 @@ fn hint(error: &Error) -> Option<String> {
         ),
         Error::ResultsExist { results: false, .. }
         | Error::WithinResults { .. }
-        | Error::NotThisStudy { .. } => {
-            Some("--out names another directory".to_owned())
-        }
+        | Error::NotThisStudy { .. }
+        | Error::InUse { .. } => Some("--out names another directory".to_owned()),
         Error::OtherCase { .. } | Error::SurfaceChanged { .. } | Error::NotResumable { .. } => {
             Some("--overwrite computes all of it anew, --out names another directory".to_owned())
         }
-        Error::InUse { .. } => Some("--out names another directory".to_owned()),
         Error::Threads { .. } => {
             Some("one needs none: `--threads 1`, or RAYON_NUM_THREADS=1 in the environment".to_owned())
         }
@@ -376,7 +364,7 @@ fn hint(error: &Error) -> Option<String> {
                 .filter(|_| path.extension().is_some_and(|extension| extension == "toml")),
             _ => None,
         },
-        other => other.hint(),
+        other => other.cause_in_step().map_or_else(|| other.hint(), hint),
     }
 }
 

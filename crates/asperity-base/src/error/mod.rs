@@ -527,6 +527,18 @@ impl Error {
         }
     }
 
+    /// Returns the cause of an error that says at which step of a computation it occurred.
+    pub fn cause_in_step(&self) -> Option<&Self> {
+        match self {
+            Self::AtPosition { source, .. }
+            | Self::AtPoint { source, .. }
+            | Self::AtIncrement { source, .. }
+            | Self::AtPass { source, .. }
+            | Self::AtUpdate { source, .. } => Some(source),
+            _ => None,
+        }
+    }
+
     /// Returns advice for the user, if there is any: a sentence to print after the error.
     pub fn hint(&self) -> Option<String> {
         match self {
@@ -558,11 +570,6 @@ impl Error {
             Self::WornAway { .. } => Some(
                 "check the coefficient of the law that removes so much, a volume over load and distance, in 1/Pa, and not Archard's dimensionless number".into(),
             ),
-            Self::AtPosition { source, .. }
-            | Self::AtIncrement { source, .. }
-            | Self::AtPass { source, .. }
-            | Self::AtUpdate { source, .. }
-            | Self::AtPoint { source, .. } => source.hint(),
             Self::TooManyRanks { .. } => Some("start fewer ranks: each needs a row or more".into()),
             Self::RanksDiffer { .. } => {
                 Some("start the same program on every machine, with the same files".into())
@@ -571,7 +578,7 @@ impl Error {
                 Some("restore the file that the rank wrote, or compute the contact again".into())
             }
             Self::Memory { .. } => Some("use fewer cells or fewer threads".into()),
-            _ => None,
+            _ => self.cause_in_step().and_then(Self::hint),
         }
     }
 }

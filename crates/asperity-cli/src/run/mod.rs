@@ -56,14 +56,8 @@ pub(crate) fn compute(
     let display = Display::new(is_quiet, &case, (directory, existing), stop.clone());
     let outcome = study::run(&case, study::SurfaceInput::default(), directory, existing, &display);
     let (printed, warned) = display.end();
-    if let Err(
-        Error::Interrupted
-        | Error::AtPosition { .. }
-        | Error::AtPass { .. }
-        | Error::AtUpdate { .. }
-        | Error::AtIncrement { .. }
-        | Error::AtPoint { .. },
-    ) = &outcome
+    if let Err(error) = &outcome
+        && (matches!(error, Error::Interrupted) || error.cause_in_step().is_some())
         && let Ok(results) = Results::open(directory)
     {
         // Finished steps get their page; the message reports why no more follow.
