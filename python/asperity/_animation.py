@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,17 +11,16 @@ from numpy.typing import NDArray
 from ._optional import need
 from ._plot import MISSING, bar, labelled, map_of, masked
 from ._raise import bad_input
-from ._show import Look, largest, scale
+from ._show import Look, Values, largest, scale
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
 
-    from ._viewed import Field, Run
 
-
-def animation(run: Run, number: int, interval: float = 100.0, **options: Any) -> FuncAnimation:
+def animation(
+    fields: Mapping[str, Values], steps: NDArray[np.void], number: int, interval: float = 100.0, **options: Any
+) -> FuncAnimation:
     """Animates the kept pressures of a pass on the lower body. `interval` is the time of each, ms."""
-    fields = run.fields(number)
     names = [name for name in fields if name.startswith("pressure_")]
     if not names:
         hint = "pressure_every=8 keeps those of every eighth position"
@@ -44,7 +44,7 @@ def animation(run: Run, number: int, interval: float = 100.0, **options: Any) ->
     bar(ax, image, shown[0], labelled("pressure", pressure.unit))
     ax.set(xlabel=f"x ({length.unit})", ylabel=f"y ({length.unit})", aspect="equal")
     # The layout is computed once, with the longest title: computed for each frame it takes most of the time.
-    positions = int(run.steps["step"].max())
+    positions = int(steps["step"].max())
     ax.set_title(f"pass {number}, position {positions} of {positions}", y=1.0)
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
@@ -71,7 +71,7 @@ def animation(run: Run, number: int, interval: float = 100.0, **options: Any) ->
     return made
 
 
-def _on_lower(pressure: Field, lower: Field) -> NDArray[np.float64]:
+def _on_lower(pressure: Values, lower: Values) -> NDArray[np.float64]:
     """Pressures in the frame of the lower body, NaN outside the overlap."""
     whole = np.full(lower.values.shape, np.nan)
     begin = [

@@ -2,6 +2,7 @@
 
 # Annotations are not postponed here: types and texts are read when the package is imported.
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict
 
@@ -11,11 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 from . import _case, _core
 from ._described import described
 from ._keywords import takes
-from ._optional import need
 from ._raise import bad_input
 from ._same import Comparable
 from ._solved import Solved
 from ._units import Pair, Quantity, choice, edges, lengths, matrix, number, quantity
+from .fields import on_cells
 from .keys import Boundary
 
 if TYPE_CHECKING:
@@ -91,14 +92,10 @@ class Conductance(Comparable):
         asperity.errors.BadInput
             If the joint has no resistance, so that no drop drives a flux.
         """
-        xarray = need("xarray", "to_xarray()")
         if self.flux is None:
             raise bad_input("flux", "the joint has no resistance, so that no drop drives a flux")
-        x, y = (pitch * (np.arange(n) + 0.5) for pitch, n in zip(self.pitch, self.flux.shape))
-        coordinates = {name: (name, at, {"units": "m"}) for name, at in (("x", x), ("y", y))}
-        numbers = {key: value for key, value in vars(self).items() if isinstance(value, (int, float, str))}
-        attributes = {"units": _UNITS[self.kind][1], **numbers}
-        array: DataArray = xarray.DataArray(self.flux, coordinates, ("x", "y"), "flux", attributes)
+        array = on_cells("flux", self.flux, _UNITS[self.kind][1], self.pitch).to_xarray()
+        array.attrs.update({key: value for key, value in vars(self).items() if isinstance(value, (int, float, str))})
         return array
 
 
@@ -194,16 +191,15 @@ def conductance(
     between = None if gas is None else _gas(kind, gas, jump, gap)
     if gas is None and jump is not None:
         raise bad_input("jump", "'jump' is given without 'gas'", "a jump of temperature is one between a body and a gas")
-    insulance = "thermal insulance" if kind == "thermal" else "electrical insulance"
     found = _core.conductance(
         (touching, size),
         edges(boundary),
         kind,
         _conductivities(kind, options["conductivity"]),
-        0.0 if film is None else quantity("film", film, insulance, positive=False),
+        0.0 if film is None else quantity("film", film, f"{kind} resistance of an area", positive=False),
         between,
         matrix("gap", gap, ("contact", touching.shape)) if between is not None else None,
-        _tolerance(options["tolerance"]),
+        number("tolerance", options["tolerance"], "a number above 0, below 1", math.ulp(0.0), math.nextafter(1.0, 0.0)),
         _case.threads(options["threads"]),
     )
     return Conductance(kind, size, found)
@@ -215,20 +211,12 @@ def _gas(kind: str, gas: Quantity, jump: Quantity | None, gap: Any) -> tuple[flo
     if gap is None:
         raise bad_input("gap", "'gap' is missing: gas conducts across the gap between the bodies")
     distance = 0.0 if jump is None else quantity("jump", jump, "length", positive=False)
-    return quantity("gas", gas, "conductivity"), distance
+    return quantity("gas", gas, "thermal conductivity"), distance
 
 
 def _conductivities(kind: str, given: Any) -> list[float]:
-    dimension = "conductivity" if kind == "thermal" else "electrical conductivity"
     one = isinstance(given, str) or np.ndim(given) == 0
     values = [given, given] if one else list(given)
     if len(values) != 2:
         raise bad_input("conductivity", f"'conductivity' has {len(values)} values, expected one or two")
-    return [quantity("conductivity", value, dimension, infinite=not one) for value in values]
-
-
-def _tolerance(value: Any) -> float:
-    found = number("tolerance", value, "a number above 0, below 1", 0.0, 1.0)
-    if found in (0.0, 1.0):
-        raise bad_input("tolerance", f"'tolerance' is {value!r}, expected a number above 0, below 1")
-    return found
+    return [quantity("conductivity", value, f"{kind} conductivity", infinite=not one) for value in values]

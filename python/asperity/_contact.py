@@ -311,7 +311,10 @@ class Contact(OfContact):
     def _repr_html_(self) -> str:
         from ._html import contact
 
-        return contact(self)
+        return contact(
+            self.numbers, self.fields["pressure"], fraction=self.contact_fraction, points=len(self.sweep),
+            adhesion=self.adhesion, theory=self.closed_form, warnings=self.warnings,
+        )  # fmt: skip
 
 
 def report(core: Any, out: str | os.PathLike[str] | None) -> pathlib.Path:
@@ -454,7 +457,7 @@ def stored(directory: str, core: Any) -> Contact:
         # Only a converged contact has a summary.
         del record["converged"]
     found = {
-        "record": record, "sweep": core.sweep(), "increments": core.increments(), "updates": core.updates(), "found": core.found(),
-        "warnings": summary["warnings"], "case": core.case(), "closed_form": summary.get("closed_form"), "interface": summary,
+        "record": record, "warnings": summary["warnings"], "case": core.case(), "closed_form": summary.get("closed_form"),
+        "interface": summary, **{table: core.rows(table) for table in ("sweep", "increments", "updates", "found")},
     }  # fmt: skip
     return Contact(found, fields.stored(core, "contact", None), of_results(core, None), pathlib.Path(directory))

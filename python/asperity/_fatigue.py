@@ -40,9 +40,6 @@ class Fatigue(Comparable):
         self.depths = np.array(depths)
         self.pitch = pitch
 
-    def _compared(self) -> dict[str, Any]:
-        return dict(vars(self))
-
     def __repr__(self) -> str:
         most = self.most
         return f"<Fatigue: f/b {most.value / self.limit:.4g} at a depth of {most.position[2]:.4g} m>"

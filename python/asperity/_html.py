@@ -6,17 +6,14 @@ import base64
 import html
 import struct
 import zlib
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._show import largest, look, scale, unit_of, words
-from .errors import AsperityError
-
-if TYPE_CHECKING:
-    from ._viewed import Contact, Field, Run, Study, Surface
+from ._show import Values, largest, look, scale, unit_of, words
 
 _COLOURS = {
     "viridis": "440154 472d7b 3b528b 2c728e 21918c 28ae80 5ec962 addc30 fde725",
@@ -60,8 +57,11 @@ def _averaged(values: NDArray[np.float64]) -> NDArray[np.float64]:
         return sums(np.where(there, values, 0.0)) / sums(there)
 
 
-def _map(name: str, values: NDArray[np.float64]) -> str:
-    """A field as an inline image, x to the right and y upwards; grey where there is no value, white out of contact."""
+def _map(name: str, values: NDArray[np.float64], unit: str) -> tuple[str, str]:
+    """A field as an inline image, x to the right and y upwards; grey where there is no value, white out of contact.
+
+    Its caption has the name of the field and the values at the two ends of the colours.
+    """
     values = _averaged(np.asarray(values, dtype=np.float64))
     colours = look(name, values)
     anchors = np.array([list(bytes.fromhex(text)) for text in _COLOURS[colours.colours].split()], dtype=np.float64)
@@ -78,7 +78,10 @@ def _map(name: str, values: NDArray[np.float64]) -> str:
     width, height = (max(1, round(200 * count / longer)) for count in values.shape)
     style = "image-rendering:pixelated;border:1px solid #888"
     text = html.escape(words(name), quote=True)
-    return f'<img width="{width}" height="{height}" alt="{text}" style="{style}" src="data:image/png;base64,{data}">'
+    picture = f'<img width="{width}" height="{height}" alt="{text}" style="{style}" src="data:image/png;base64,{data}">'
+    value = scale(unit, max(abs(colours.low), abs(colours.high)))
+    ends = " … ".join(f"{value.factor * end:.3g}" for end in (colours.low, colours.high))
+    return picture, f"{words(name)}, {ends}{'' if value.unit == '1' else ' ' + value.unit}"
 
 
 def _shown(title: str, rows: list[tuple[str, str]], picture: str, caption: str, remarks: list[str] | None = None) -> str:
@@ -114,34 +117,27 @@ def _grid(shape: tuple[int, ...], pitch: tuple[float, ...]) -> list[tuple[str, s
     return [("cells", f"{cells} of {size}"), ("extent", extent)]
 
 
-def surface(surface: Surface) -> str:
+def code(text: str) -> str:
+    """A text as code."""
+    return f"<div><code>{html.escape(text)}</code></div>"
+
+
+def surface(heights: NDArray[np.float64], pitch: tuple[float, float]) -> str:
     """A surface: its grid, its heights."""
-    try:
-        heights = surface.heights
-    except AsperityError:
-        # What is made without a shape takes it from the body that it meets.
-        return f"<div><code>{html.escape(repr(surface))}</code></div>"
-    rows = _grid(surface.shape, surface.pitch)
+    rows = _grid(heights.shape, pitch)
     there = heights[np.isfinite(heights)]
     if there.size:
         # Heights of 1e300 have no square.
         with np.errstate(over="ignore", invalid="ignore"):
             sq, sz = float(there.std()), float(np.ptp(there))
         rows += [("Sq", _core.format(sq, "length")), ("Sz", _core.format(sz, "length"))]
-    if surface.undefined:
-        rows.append(("missing", f"{surface.undefined} ({100.0 * surface.undefined / heights.size:.2g} %)"))
-    return _shown("Surface", rows, _map("heights", heights), _range("heights", heights, "m"))
+    undefined = int(np.isnan(heights).sum())
+    if undefined:
+        rows.append(("missing", f"{undefined} ({100.0 * undefined / heights.size:.2g} %)"))
+    return _shown("Surface", rows, *_map("heights", heights, "m"))
 
 
-def _range(name: str, values: NDArray[np.float64], unit: str) -> str:
-    """What the colours of a map mean: its name and the values at the two ends of the colours."""
-    colours = look(name, _averaged(np.asarray(values, dtype=np.float64)))
-    value = scale(unit, max(abs(colours.low), abs(colours.high)))
-    ends = " … ".join(f"{value.factor * end:.3g}" for end in (colours.low, colours.high))
-    return f"{words(name)}, {ends}{'' if value.unit == '1' else ' ' + value.unit}"
-
-
-def field(field: Field) -> str:
+def field(field: Values) -> str:
     """A field: its grid, its least, mean and largest value."""
     values = np.asarray(field.values, dtype=np.float64)
     rows = _grid(values.shape, field.pitch)
@@ -151,52 +147,58 @@ def field(field: Field) -> str:
         unit = "" if value.unit == "1" else f" {value.unit}"
         numbers = (("least", there.min()), ("mean", there.mean()), ("largest", there.max()))
         rows += [(name, f"{value.factor * number:.4g}{unit}") for name, number in numbers]
-    picture = _map(field.name, values) if values.ndim == 2 else ""
-    return _shown(words(field.name), rows, picture, _range(field.name, values, field.unit) if picture else "")
+    pictured = _map(field.name, values, field.unit) if values.ndim == 2 else ("", "")
+    return _shown(words(field.name), rows, *pictured)
 
 
-def contact(contact: Contact) -> str:
-    """A contact: its main numbers and its pressure."""
-    numbers = contact.numbers
-    area = f"{_quantity(contact.contact_area, 'm²')} ({100.0 * contact.contact_fraction:.3g} %)"
-    rows = [("load", _quantity(contact.load, "N")), ("approach", _quantity(contact.approach, "m")), ("area of contact", area)]
-    mean = contact.load / contact.contact_area if contact.contact_area > 0.0 else 0.0
-    rows += [("mean pressure on it", _quantity(mean, "Pa")), ("largest pressure", _quantity(contact.max_pressure, "Pa"))]
-    rows.append(("mean gap", _quantity(contact.mean_gap, "m")))
-    if contact.plastic_volume > 0.0:
+def contact(
+    numbers: Mapping[str, Any],
+    pressure: Values,
+    *,
+    fraction: float,
+    points: int,
+    adhesion: Mapping[str, Any] | None,
+    theory: Mapping[str, Any] | None,
+    warnings: list[str],
+) -> str:
+    """A contact: its main numbers and its pressure; of a sweep, the last of its `points`."""
+    load, area = numbers["load"], numbers["contact_area"]
+    rows = [("load", _quantity(load, "N")), ("approach", _quantity(numbers["approach"], "m"))]
+    rows.append(("area of contact", f"{_quantity(area, 'm²')} ({100.0 * fraction:.3g} %)"))
+    rows.append(("mean pressure on it", _quantity(load / area if area > 0.0 else 0.0, "Pa")))
+    rows.append(("largest pressure", _quantity(numbers["max_pressure"], "Pa")))
+    rows.append(("mean gap", _quantity(numbers["mean_gap"], "m")))
+    if numbers["plastic_volume"] > 0.0:
         # A point of a sweep has the area of these cells.
-        dx, dy = contact.pitch
+        dx, dy = pressure.pitch
         cells = numbers["plastic_cells"] if "plastic_cells" in numbers else round(numbers["plastic_area"] / (dx * dy))
-        rows.append(("plastic", f"{cells} cells, {_quantity(contact.plastic_volume, 'm³')}"))
-    if contact.adhesion is not None:
-        rows.append(("adhesive load", _quantity(contact.adhesive_load, "N")))
-        if contact.adhesion["pull_off"] is not None:
-            rows.append(("pull-off", _quantity(contact.adhesion["pull_off"], "N")))
+        rows.append(("plastic", f"{cells} cells, {_quantity(numbers['plastic_volume'], 'm³')}"))
+    if adhesion is not None:
+        rows.append(("adhesive load", _quantity(numbers["adhesive_load"], "N")))
+        if adhesion["pull_off"] is not None:
+            rows.append(("pull-off", _quantity(adhesion["pull_off"], "N")))
     force = numbers.get("tangential_force")
     if force is not None and any(force):
-        share = f" ({numbers['force_ratio']:.3g} of the load)" if numbers["load"] > 0.0 else ""
+        share = f" ({numbers['force_ratio']:.3g} of the load)" if load > 0.0 else ""
         rows.append(("tangential force", _quantity(float(np.hypot(*force)), "N") + share))
-    theory = contact.closed_form
     if theory is not None:
         names = {"largest pressure": "max_pressure", "approach": "approach"}
         known = [(words, theory[f"{name}_deviation"]) for words, name in names.items() if theory[f"{name}_deviation"] is not None]
         deviations = ", ".join(f"{words} {100.0 * deviation:+.2f} %" for words, deviation in known)
         rows.append((f"deviation from theory ({theory['theory']})", deviations))
-    rows.append(("residual", f"{contact.residual:.1e}, {contact.convolutions:.4g} convolutions"))
-    if len(contact.sweep) > 1:
-        rows.insert(0, ("sweep", f"{len(contact.sweep)} points, this is the last one"))
-    pressure = contact.pressure
-    return _shown(
-        "Contact", rows, _map("pressure", pressure), _range("pressure", pressure, "Pa"), contact.warnings
-    )
+    rows.append(("residual", f"{numbers['residual']:.1e}, {numbers['convolutions']:.4g} convolutions"))
+    if points > 1:
+        rows.insert(0, ("sweep", f"{points} points, this is the last one"))
+    return _shown("Contact", rows, *_map("pressure", pressure.values, pressure.unit), warnings)
 
 
-def run(run: Run) -> str:
+def run(
+    case: Mapping[str, Any], passes: NDArray[np.void], fields: Callable[[], Mapping[str, Values]], warnings: list[str]
+) -> str:
     """A motion: its last pass in numbers, and the lower body's mean pressure in it."""
-    passes = run.passes
-    title = f"Run: {len(passes)} of {run.case['motion']['passes']} passes"
-    if run.case["title"]:
-        title += f", {run.case['title']}"
+    title = f"Run: {len(passes)} of {case['motion']['passes']} passes"
+    if case["title"]:
+        title += f", {case['title']}"
     if len(passes) == 0:
         return _shown(title, [], "", "")
     last = passes[-1]
@@ -205,21 +207,18 @@ def run(run: Run) -> str:
         "sq_lower", "sq_upper",
     )  # fmt: skip
     rows = [(words(name), _quantity(float(last[name]), unit_of(name))) for name in names if name in (passes.dtype.names or ())]
-    fields = run.fields()
-    name = "mean_pressure_lower" if "mean_pressure_lower" in fields else "lower"
-    shown = fields[name]
-    return _shown(
-        title, [("pass", str(int(last["pass"]))), *rows], _map(name, shown.values),
-        _range(name, shown.values, shown.unit), run.warnings,
-    )  # fmt: skip
+    found = fields()
+    shown = found["mean_pressure_lower" if "mean_pressure_lower" in found else "lower"]
+    return _shown(title, [("pass", str(int(last["pass"]))), *rows], *_map(shown.name, shown.values, shown.unit), warnings)
 
 
-def study(study: Study) -> str:
-    """A study: its axes, and how its cases stand."""
+def study(title: str, axes: Mapping[str, NDArray[Any]], units: Mapping[str, str], failures: Mapping[int, str]) -> str:
+    """A study: its axes, and why cases have failed."""
     rows = []
-    for key, values in study.axes.items():
-        unit = study.units[key] or "1"
-        texts = [str(value) if values.dtype.kind in "Ui" else _quantity(float(value), unit) for value in values[[0, -1]]]
+    for key, values in axes.items():
+        texts = [
+            str(value) if values.dtype.kind in "Ui" else _quantity(float(value), units[key] or "1") for value in values[[0, -1]]
+        ]
         rows.append((key, texts[0] if len(values) == 1 else f"{len(values)} values, {texts[0]} to {texts[1]}"))
-    failures = [f"case {case}: {message}" for case, message in study.failures.items()]
-    return _shown(f"Study {study.title}: {study._told()}", rows, "", "", failures[:_MAX_FAILURES])
+    remarks = [f"case {case}: {message}" for case, message in failures.items()]
+    return _shown(title, rows, "", "", remarks[:_MAX_FAILURES])

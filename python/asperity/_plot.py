@@ -9,12 +9,10 @@ from numpy.typing import NDArray
 
 from ._optional import need
 from ._raise import bad_input
-from ._show import Look, largest, look, scale, unit_of, words
+from ._show import Look, Values, largest, look, scale, unit_of, words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from ._viewed import Field, Run
 
 MISSING = "0.75"
 """The grey of cells without a value."""
@@ -60,7 +58,7 @@ def labelled(name: str, unit: str) -> str:
     return words(name) if unit in ("", "1") else f"{words(name)} ({unit})"
 
 
-def field(field: Field, ax: Axes | None = None, **options: Any) -> Axes:
+def field(field: Values, ax: Axes | None = None, **options: Any) -> Axes:
     """Draws a field and returns the axes.
 
     In a map x points to the right and y up; in a section the depth points down. Cells without a value are grey, cells without
@@ -93,18 +91,16 @@ def field(field: Field, ax: Axes | None = None, **options: Any) -> Axes:
     return ax
 
 
-def run(run: Run, quantity: str | None = None, ax: Axes | None = None, **options: Any) -> Axes:
-    """Draws a column over the passes, or the load over the positions of the first and the last pass; returns the axes."""
-    passes = run.passes
-    if quantity is None:
-        return _loads(run, ax, options)
+def over_passes(
+    passes: NDArray[np.void], quantity: str, before: float | None = None, ax: Axes | None = None, **options: Any
+) -> Axes:
+    """Draws a column over the passes, after its value `before` the first one if there is such; returns the axes."""
     column(passes, quantity, "quantity", "passes", but="pass")
     # An accelerated run computes only some of its passes.
     number = np.cumsum(passes["represents"]) if "represents" in (passes.dtype.names or ()) else passes["pass"]
     values = passes[quantity]
-    body = {"sq_lower": run.lower, "sq_upper": run.upper}.get(quantity)
-    if body is not None:
-        number, values = np.insert(number, 0, 0), np.insert(values, 0, body(0).heights.std())
+    if before is not None:
+        number, values = np.insert(number, 0, 0), np.insert(values, 0, before)
     ax = axes(ax)
     value = scale(unit_of(quantity), largest(values))
     ax.plot(number, value.factor * values, **{"marker": "o", **options})
@@ -114,17 +110,17 @@ def run(run: Run, quantity: str | None = None, ax: Axes | None = None, **options
     return ax
 
 
-def _loads(run: Run, ax: Axes | None, options: dict[str, Any]) -> Axes:
+def loads(steps: NDArray[np.void], last: int, ax: Axes | None = None, **options: Any) -> Axes:
+    """Draws the load over the positions of the first and the `last` pass; returns the axes."""
     ax = axes(ax)
-    steps = run.steps
     length, force = scale("m", largest(steps["offset"])), scale("N", largest(steps["load"]))
-    for number in sorted({1, len(run.passes)} - {0}):
+    for number in sorted({1, last} - {0}):
         of_pass = steps[steps["pass"] == number]
         label = {"label": f"pass {number}"}
         ax.plot(length.factor * of_pass["offset"], force.factor * of_pass["load"], **{**label, **options})
     ax.set(xlabel=f"offset of the upper body ({length.unit})", ylabel=f"load ({force.unit})")
     ax.set_ylim(bottom=0.0)
-    if len(run.passes) > 0:
+    if last > 0:
         ax.legend()
     return ax
 

@@ -96,7 +96,7 @@ class Run(Observed, Comparable):
     def _repr_html_(self) -> str:
         from ._html import run
 
-        return run(self)
+        return run(self.case, self.passes, self.fields, self.warnings)
 
     @property
     def case(self) -> dict[str, Any]:
@@ -114,15 +114,15 @@ class Run(Observed, Comparable):
     @property
     def passes(self) -> Table:
         """A record for each pass, with the columns of `passes.csv`."""
-        return records(self._core.passes(), _core.PASS_COLUMNS)
+        return records(self._core.rows("passes"), _core.PASS_COLUMNS)
 
     @property
     def steps(self) -> Table:
         """A record for each position of each pass, with the columns of `steps.csv`."""
-        return records(self._core.steps(), _core.STEP_COLUMNS)
+        return records(self._core.rows("steps"), _core.STEP_COLUMNS)
 
     def _found(self, capability: str) -> list[dict[str, Any]]:
-        found: dict[str, list[dict[str, Any]]] = self._core.found()
+        found: dict[str, list[dict[str, Any]]] = self._core.rows("found")
         return found.get(capability, [])
 
     @property
@@ -237,9 +237,13 @@ class Run(Observed, Comparable):
         **options
             Passed on to ``Axes.plot``.
         """
-        from ._plot import run
+        from ._plot import loads, over_passes
 
-        return run(self, quantity, ax, **options)
+        if quantity is None:
+            return loads(self.steps, len(self.passes), ax, **options)
+        body = {"sq_lower": self.lower, "sq_upper": self.upper}.get(quantity)
+        before = None if body is None else float(body(0).heights.std())
+        return over_passes(self.passes, quantity, before, ax, **options)
 
     def report(self, out: str | os.PathLike[str] | None = None) -> pathlib.Path:
         """Write a page with the maps, curves and tables of the run in one HTML file, and return its path.
@@ -266,7 +270,8 @@ class Run(Observed, Comparable):
         """
         from ._animation import animation
 
-        return animation(self, self._number(number), **options)
+        number = self._number(number)
+        return animation(self.fields(number), self.steps, number, **options)
 
 
 def _path(path: str | os.PathLike[str]) -> pathlib.Path:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -38,3 +39,11 @@ class Comparable:
     def _compared(self) -> dict[str, Any]:
         """What decides whether two are equal."""
         return vars(self)
+
+
+class Cached(Comparable):
+    """Pickled and copied without its cached properties."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        cached = {name for name in vars(self) if isinstance(getattr(type(self), name, None), cached_property)}
+        return {name: value for name, value in vars(self).items() if name not in cached}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,19 @@ _POWER = {"m²": 2, "m³": 3}
 """A prefix stands before the metre, and is raised with it."""
 
 _PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+
+
+class Values(Protocol):
+    """A field: values on a grid, with their unit."""
+
+    name: str
+    values: NDArray[np.float64]
+    unit: str
+    axes: tuple[str, ...]
+    pitch: tuple[float, ...]
+    origin: tuple[float, ...]
+
+    def coordinate(self, axis: str) -> NDArray[np.float64]: ...
 
 
 class Scale(NamedTuple):

@@ -14,7 +14,7 @@ from ._contact import Contact
 from ._described import described
 from ._optional import need
 from ._raise import bad_input
-from ._same import Comparable
+from ._same import Cached
 from ._units import Pair, Quantity, choice, edges, lengths, matrix, quantity
 from .keys import Boundary
 from .material import Material, _poisson
@@ -40,7 +40,7 @@ def _component(name: str, text: str) -> Any:
     return property(lambda stress: stress[name], doc=text)
 
 
-class Stress(Comparable):
+class Stress(Cached):
     """Stress tensors, positive in tension, at any number of points; z points into the body.
 
     Parameters
@@ -72,12 +72,6 @@ class Stress(Comparable):
 
     def _compared(self) -> dict[str, Any]:
         return {"parts": self._parts}
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in vars(self).items() if name not in ("von_mises", "max_shear", "principal")}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
 
     def __repr__(self) -> str:
         if self.shape:

@@ -85,7 +85,7 @@ class Study(Comparable):
     def _repr_html_(self) -> str:
         from ._html import study
 
-        return study(self)
+        return study(f"Study {self.title}: {self._told()}", self.axes, self.units, self.failures)
 
     def _told(self) -> str:
         states = self.states
@@ -290,7 +290,10 @@ class Study(Comparable):
         """
         from ._study_plot import study
 
-        return study(self, quantity, x, color, ax, **options)
+        if x is None:
+            numbers = (key for key, values in self.axes.items() if values.dtype.kind in "if" and len(values) > 1)
+            x = next(numbers, next(iter(self.axes)))
+        return study(self.table, self.table_units, self._table_axes, quantity, x, color, ax, **options)
 
     def _records(self, collected: Any) -> NDArray[np.void]:
         cases, points, columns, warnings, messages = collected or ([], None, [], [], [])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,13 +16,19 @@ from ._show import Scale, largest, scale, words
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ._viewed import Study
 
-
-def study(study: Study, quantity: str, x: str | None, color: str | None, ax: Axes | None, **options: Any) -> Axes:
-    """Draws a column of the table of a study: a point for each case, and a line through the means over an axis."""
-    table, units, known = study.table, study.table_units, study._table_axes
-    over = column(table, _default(study) if x is None else x, "x", "study")
+def study(
+    table: NDArray[np.void],
+    units: Mapping[str, str],
+    known: Mapping[str, NDArray[Any]],
+    quantity: str,
+    x: str,
+    color: str | None,
+    ax: Axes | None,
+    **options: Any,
+) -> Axes:
+    """Draws a column of the table of a study: a point for each case, and a line through the means over a `known` axis."""
+    over = column(table, x, "x", "study")
     column(table, quantity, "quantity", "study")
     if table[quantity].dtype.kind not in "if":
         raise bad_input("quantity", f"'quantity' is {quantity!r}, expected a column of numbers")
@@ -49,12 +56,6 @@ def study(study: Study, quantity: str, x: str | None, color: str | None, ax: Axe
     if color is not None:
         ax.legend(title=labelled(_words(color), _shown(known[color], units[color]).unit))
     return ax
-
-
-def _default(study: Study) -> str:
-    """The first axis of several numbers, or the first one."""
-    numbers = (key for key, values in study.axes.items() if values.dtype.kind in "if" and len(values) > 1)
-    return next(numbers, next(iter(study.axes)))
 
 
 def _shown(values: NDArray[Any], unit: str) -> Scale:

@@ -18,7 +18,7 @@ from . import _core
 from ._described import described
 from ._points import Point, spread
 from ._raise import bad_input
-from ._same import Comparable, same
+from ._same import Cached, Comparable, same
 from ._units import Quantity, number, quantity, whole
 
 __all__ = [
@@ -168,7 +168,7 @@ class Core(NamedTuple):
     ak2: Annotated[float, "Void below the core, m³/m² (for a profile m²/m)."]
 
 
-class _Computed(Comparable):
+class _Computed(Cached):
     """An object of the compiled module, which is made again from its data where it is unpickled."""
 
     _kind: Any
@@ -177,13 +177,6 @@ class _Computed(Comparable):
     @cached_property
     def _core(self) -> Any:
         return self._kind(*self._data)
-
-    def __getstate__(self) -> dict[str, Any]:
-        cached = {name for name in vars(self) if isinstance(getattr(type(self), name, None), cached_property)}
-        return {name: value for name, value in vars(self).items() if name not in cached}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
 
 
 class BearingCurve(_Computed):
@@ -247,7 +240,7 @@ class BearingCurve(_Computed):
     def core(self) -> Core | None:
         """Return the parameters of stratified surfaces, such as Sk, by ISO 13565-2; `None` for fewer than about five samples."""
         found = self._core.core()
-        return None if found is None else Core(**dict(found))
+        return None if found is None else Core(*found)
 
     def _at(self, what: str, places: Any) -> Any:
         return spread((places,), lambda points: self._core.at(what, points[:, 0])[:, np.newaxis])

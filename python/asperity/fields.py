@@ -138,13 +138,14 @@ def _known(fields: dict[str, Field]) -> Fields:
     return Fields(list(fields), fields.__getitem__)
 
 
+def on_cells(name: str, values: NDArray[np.float64], unit: str, pitch: tuple[float, float]) -> Field:
+    """Makes a field of an array on the cells of a grid. The values belong to the centres of the cells."""
+    return Field(name, values, unit, ("x", "y"), pitch, (0.5 * pitch[0], 0.5 * pitch[1]))
+
+
 def of_cells(arrays: dict[str, tuple[NDArray[np.float64], str]], pitch: tuple[float, float]) -> Fields:
-    """Makes fields of arrays on the cells of a grid. The values belong to the centres of the cells."""
-    origin = (0.5 * pitch[0], 0.5 * pitch[1])
-    fields = {
-        name: Field(name, values, unit, ("x", "y"), pitch, origin) for name, (values, unit) in arrays.items()
-    }
-    return _known(fields)
+    """Makes fields of arrays on the cells of a grid."""
+    return _known({name: on_cells(name, values, unit, pitch) for name, (values, unit) in arrays.items()})
 
 
 def stored(core: Any, kind: str, number: int | None) -> Fields:

@@ -246,7 +246,7 @@ def materials() -> dict[str, dict[str, Any]]:
     210000000000.0
     """
     keys = ("about", "young", "poisson", "hardness", "conductivity", "heat_capacity", "density", "resistivity", "source")
-    return {name: dict(zip(keys, constants, strict=True)) for name, *constants in _core.named_materials()}
+    return {material["name"]: {key: material[key] for key in keys} for material in _core.named_materials()}
 
 
 def _named(young: Any) -> dict[str, Any] | None:

@@ -446,10 +446,7 @@ class CattaneoMindlin(_Form):
         self.tangential_load = _within("tangential_load", self.tangential_load, "N", 0.0, most)
 
     stick_radius = _number("Radius c of the circle that sticks, a (1 − Q/μW)^(1/3), m.")
-
-    def displacement(self) -> float:
-        """Tangential displacement of the bodies against each other, (3μW/4aGₜ) [1 − (1 − Q/μW)^(2/3)], m."""
-        return float(self._ask("displacement"))
+    displacement = _number("Tangential displacement of the bodies against each other, (3μW/4aGₜ) [1 − (1 − Q/μW)^(2/3)], m.")
 
     def cycle_loss(self) -> float:
         """Energy that friction takes in a closed cycle of the tangential load between Q and −Q, J.

@@ -132,16 +132,8 @@ class Pass(_Moving):
             ``"lower"`` or ``"upper"``.
         """
         choice("body", body, "lower", "upper")
-        index = 0 if body == "lower" else 1
-        nx, ny = self.shapes[index]
-        contacts, cells = self.contacts, nx * ny
-        cell = (contacts.lower_cell, contacts.upper_cell)[index]
-        beyond = (contacts.lower_beyond, contacts.upper_beyond)[index]
-        count = len(self.steps["step"])
-        flat = np.zeros(count * cells)
-        np.add.at(flat, contacts.position * cells + cell, contacts.pressure * (1.0 - beyond))
-        np.add.at(flat, contacts.position * cells + (cell + ny) % cells, contacts.pressure * beyond)
-        return flat.reshape(count, nx, ny)
+        contacts = self.contacts
+        return self._on_body(body, contacts.pressure, contacts.position, len(self.steps["step"]))
 
     def on_bodies(self, values: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Sum values of the contacts on the cells of the lower and of the upper body over the pass.
@@ -157,19 +149,20 @@ class Pass(_Moving):
             The sums on the lower and on the upper body. A value between two cells of a body is divided among them, so that the total
             of each array is the sum of the values.
         """
+        weights = np.broadcast_to(np.asarray(values, dtype=float), self.contacts.pressure.shape)
+        return self._on_body("lower", weights)[0], self._on_body("upper", weights)[0]
+
+    def _on_body(self, body: str, values: NDArray[np.float64], plane: Any = 0, planes: int = 1) -> NDArray[np.float64]:
+        """Sums values of the contacts on the cells of a body, those of each `plane` by themselves: ``[plane, ix, iy]``."""
         contacts = self.contacts
-        weights = np.broadcast_to(np.asarray(values, dtype=float), contacts.pressure.shape)
-        sums = []
-        for cell, beyond, (nx, ny) in zip(
-            (contacts.lower_cell, contacts.upper_cell),
-            (contacts.lower_beyond, contacts.upper_beyond),
-            self.shapes,
-            strict=True,
-        ):
-            here = np.bincount(cell, weights * (1.0 - beyond), nx * ny)
-            there = np.bincount((cell + ny) % (nx * ny), weights * beyond, nx * ny)
-            sums.append((here + there).reshape(nx, ny).astype(np.float64, copy=False))
-        return sums[0], sums[1]
+        if body == "lower":
+            cell, beyond, (nx, ny) = contacts.lower_cell, contacts.lower_beyond, self.shapes[0]
+        else:
+            cell, beyond, (nx, ny) = contacts.upper_cell, contacts.upper_beyond, self.shapes[1]
+        cells = nx * ny
+        here = np.bincount(plane * cells + cell, values * (1.0 - beyond), planes * cells)
+        there = np.bincount(plane * cells + (cell + ny) % cells, values * beyond, planes * cells)
+        return (here + there).reshape(planes, nx, ny).astype(np.float64, copy=False)
 
     def remove(self, depth_lower: ArrayLike, depth_upper: ArrayLike, law: str = "wear") -> None:
         """Remove material before the next pass.

@@ -35,7 +35,7 @@ from .describe import (
 )
 from ._raise import bad_input, exception
 from .errors import AsperityError
-from .fields import Field
+from .fields import Field, on_cells
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -164,9 +164,6 @@ class Surface(Comparable):
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_made": None}
 
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
-
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         if copy is False and dtype not in (None, np.float64):
             raise ValueError("heights are float64: another type is a copy")
@@ -189,9 +186,13 @@ class Surface(Comparable):
         return f"<Surface: {', '.join(part for part in parts if part)}>"
 
     def _repr_html_(self) -> str:
-        from ._html import surface
+        from . import _html
 
-        return surface(self)
+        try:
+            return _html.surface(self.heights, self.pitch)
+        except AsperityError:
+            # A surface without a shape takes it from the other body.
+            return _html.code(repr(self))
 
     @property
     def heights(self) -> NDArray[np.float64]:
@@ -464,8 +465,7 @@ class Surface(Comparable):
 
     @property
     def _field(self) -> Field:
-        dx, dy = self.pitch
-        return Field("heights", self.heights, "m", ("x", "y"), (dx, dy), (0.5 * dx, 0.5 * dy))
+        return on_cells("heights", self.heights, "m", self.pitch)
 
 
 def read(

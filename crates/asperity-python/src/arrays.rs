@@ -1,6 +1,7 @@
 //! Conversion of matrices and records between Rust and Python.
 
-use asperity::{Field, Result};
+use asperity::operator::{Boundary, Edge};
+use asperity::{Choice, Field, Result};
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList};
@@ -15,6 +16,11 @@ pub(crate) fn field(array: &PyReadonlyArray2<'_, f64>) -> Field {
 /// Converts a field without a copy.
 pub(crate) fn array(py: Python<'_>, field: Field) -> Bound<'_, PyArray2<f64>> {
     field.into_pyarray(py)
+}
+
+/// Returns the boundary along x and y with these words, which the Python package has checked.
+pub(crate) fn boundary(edges: &[String; 2]) -> Boundary {
+    Boundary(edges.each_ref().map(|word| Edge::of_word(word).expect("a boundary is one of the words")))
 }
 
 /// Converts a serialisable value to dictionaries, lists and numbers; NaN becomes `None`.

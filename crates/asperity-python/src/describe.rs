@@ -2,9 +2,9 @@
 
 use asperity::motion::Watch;
 use asperity::surface::{
-    Axis, BearingCurve, Bins, Classes, Correlation, Distribution, FeatureParameters, GreenwoodWilliamson,
-    Motif, Parameter, Parameters, Profile, Segmentation, SelfAffinity, Slope, SpectralMoments, SpectralPoint,
-    Spectrum, Stop, Summits, Topography, Window,
+    Axis, BearingCurve, Bins, Classes, Core, Correlation, Distribution, FeatureParameters,
+    GreenwoodWilliamson, Motif, Parameter, Parameters, Profile, Segmentation, SelfAffinity, Slope,
+    SpectralMoments, SpectralPoint, Spectrum, Stop, Summits, Topography, Window,
 };
 use asperity::{Choice, Result};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, ToPyArray};
@@ -39,8 +39,7 @@ fn of<T: Send>(
     heights: &Heights<'_>,
     work: impl FnOnce(&Topography) -> Result<T> + Send,
 ) -> PyResult<T> {
-    let topography = topography(py, heights)?;
-    work::run(py, 0, None, |_| work(&topography))
+    of_until(py, heights, |topography, _| work(topography))
 }
 
 /// Symbol, value, unit, family, meaning, and the value as text.
@@ -174,23 +173,10 @@ impl CoreBearingCurve {
         places.as_array().iter().map(value).collect::<Vec<_>>().into_pyarray(py)
     }
 
-    /// Returns the core by the names of its parts; `None` for too few samples.
-    fn core(&self) -> Option<Vec<(&'static str, f64)>> {
-        self.0.core().map(|core| {
-            vec![
-                ("upper", core.upper),
-                ("lower", core.lower),
-                ("k", core.k),
-                ("pk", core.pk),
-                ("vk", core.vk),
-                ("pkx", core.pkx),
-                ("vkx", core.vkx),
-                ("mrk1", core.mrk1),
-                ("mrk2", core.mrk2),
-                ("ak1", core.ak1),
-                ("ak2", core.ak2),
-            ]
-        })
+    /// Returns the parts of the core in the order of Python's class; `None` for too few samples.
+    fn core(&self) -> Option<[f64; 11]> {
+        let Core { upper, lower, k, pk, vk, pkx, vkx, mrk1, mrk2, ak1, ak2 } = self.0.core()?;
+        Some([upper, lower, k, pk, vk, pkx, vkx, mrk1, mrk2, ak1, ak2])
     }
 }
 

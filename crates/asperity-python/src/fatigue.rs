@@ -3,13 +3,12 @@
 use asperity::fatigue::{AtDepth, Basquin, DangVan, StressHistory, critical_depths};
 use asperity::motion::Watch;
 use asperity::ndarray::{Array3, Axis, Ix3};
-use asperity::operator::{Boundary, Edge};
 use asperity::subsurface::Tractions;
-use asperity::{Choice, Field, Grid};
+use asperity::{Field, Grid};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray3};
 use pyo3::prelude::*;
 
-use crate::arrays::ok;
+use crate::arrays::{boundary, ok};
 use crate::work;
 
 /// A pass: the pressure at each position `[it, ix, iy]`, the pitch, the ratio of the shear along x to the
@@ -33,8 +32,7 @@ pub(crate) fn fatigue<'py>(
     let pressures = pressures.as_array().as_standard_layout().into_owned();
     let (positions, nx, ny) = pressures.dim();
     let grid = ok(Grid::new([nx, ny], pitch), py)?;
-    let edge = |word: &String| Edge::of_word(word).expect("a boundary is one of the words");
-    let boundary = Boundary([edge(&edges[0]), edge(&edges[1])]);
+    let boundary = boundary(&edges);
     let criterion = ok(DangVan::new(limits[0], limits[1]), py)?;
     let found = work::run(py, threads, None, |watch| {
         let at = |position: usize| {

@@ -2,14 +2,14 @@
 
 use asperity::conductance::{Joint, Kind, composite_conductivity, full_resistance};
 use asperity::flow::{Along, Ends, Faces, FlowAlong, Fluid, Settings, Sides, memory};
-use asperity::operator::{Boundary, Edge, Operators};
+use asperity::operator::Operators;
 use asperity::solver::Params;
 use asperity::{Choice, Error, Field, Grid};
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{array, field, ok};
+use crate::arrays::{array, boundary, field, ok};
 use crate::surface::Heights;
 use crate::work;
 
@@ -39,8 +39,6 @@ fn conductance<'py>(
     let grid = ok(Grid::new([touching.shape()[0], touching.shape()[1]], pitch), py)?;
     let touching = touching.as_array().as_standard_layout().into_owned();
     let gap: Option<Field> = gap.as_ref().map(field);
-    let edge = |word: &String| Edge::of_word(word).expect("a boundary is one of the words");
-    let boundary = Boundary([edge(&edges[0]), edge(&edges[1])]);
     let kind = Kind::of_word(kind).expect("a kind is one of the words");
     let composite = ok(composite_conductivity(conductivities[0], conductivities[1]), py)?;
     let mut joint = Joint::new(kind).with_film(film);
@@ -49,7 +47,7 @@ fn conductance<'py>(
     }
     let params = Params::default().with_tolerance(tolerance);
     let (found, full) = work::run(py, threads, None, |_| {
-        let mut operator = Operators::new(grid, composite, boundary).on(grid.shape);
+        let mut operator = Operators::new(grid, composite, boundary(&edges)).on(grid.shape);
         let found =
             asperity::conductance::solve(operator.as_mut(), &touching, gap.as_ref(), &joint, None, &params)?;
         Ok((found, full_resistance(operator.as_mut(), &params)?))

@@ -1,6 +1,6 @@
 //! Closed forms: one table of all questions.
 
-use asperity::material::{Coating, Compliances, MATERIALS, Material, NamedMaterial};
+use asperity::material::{Coating, Compliances, MATERIALS, Material};
 use asperity::motion::Watch;
 use asperity::ndarray::{Array2, s};
 use asperity::reference::{
@@ -14,7 +14,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use crate::arrays::ok;
+use crate::arrays::{ok, record};
 use crate::work;
 
 /// Appends the answer at a point with these coordinates.
@@ -235,30 +235,10 @@ pub(crate) fn compliances(py: Python<'_>, lower: Constants, upper: Constants) ->
     ok(pair(), py)
 }
 
-/// A material by name: name, grade, Young's modulus, Poisson's ratio, hardness, conductivity, heat capacity,
-/// density, resistivity, source.
-type NamedConstants = (
-    &'static str,
-    &'static str,
-    f64,
-    f64,
-    Option<f64>,
-    Option<f64>,
-    Option<f64>,
-    Option<f64>,
-    Option<f64>,
-    &'static str,
-);
-
-/// Returns the materials that are known by name.
+/// Returns the materials that are known by name, each as a dictionary of its constants.
 #[pyfunction]
-pub(crate) fn named_materials() -> Vec<NamedConstants> {
-    let row = |named: &NamedMaterial| {
-        let NamedMaterial { name, about, young, poisson, hardness, conductivity, .. } = *named;
-        let NamedMaterial { heat_capacity, density, resistivity, source, .. } = *named;
-        (name, about, young, poisson, hardness, conductivity, heat_capacity, density, resistivity, source)
-    };
-    MATERIALS.iter().map(row).collect()
+pub(crate) fn named_materials(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+    record(py, &MATERIALS)
 }
 
 /// Returns Dundurs' β, friction, stick ratio and stiffening of the coupled punches.

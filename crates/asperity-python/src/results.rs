@@ -52,29 +52,18 @@ impl CoreResults {
         work::run(py, 0, None, |_| asperity_cli::write_report(directory, out.as_deref()))
     }
 
-    fn passes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        record(py, &ok(self.results.passes(), py)?)
-    }
-
-    fn steps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        record(py, &ok(self.results.steps(), py)?)
-    }
-
-    fn increments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        record(py, &ok(self.results.increments(), py)?)
-    }
-
-    fn updates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        record(py, &ok(self.results.updates(), py)?)
-    }
-
-    /// Returns the rows of the capabilities, by their names.
-    fn found<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        record(py, &ok(self.results.found(), py)?)
-    }
-
-    fn sweep<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        record(py, &ok(self.results.sweep(), py)?)
+    /// Returns the rows of a table: "passes", "steps", "increments", "updates", "sweep"; or "found", those of
+    /// each capability by its name.
+    fn rows<'py>(&self, py: Python<'py>, table: &str) -> PyResult<Bound<'py, PyAny>> {
+        let results = &self.results;
+        match table {
+            "passes" => record(py, &ok(results.passes(), py)?),
+            "steps" => record(py, &ok(results.steps(), py)?),
+            "increments" => record(py, &ok(results.increments(), py)?),
+            "updates" => record(py, &ok(results.updates(), py)?),
+            "sweep" => record(py, &ok(results.sweep(), py)?),
+            _ => record(py, &ok(results.found(), py)?),
+        }
     }
 
     /// Returns the names of the fields of a kind: "contact", "pass", "point", "increment", "subsurface",

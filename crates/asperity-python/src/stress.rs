@@ -1,15 +1,14 @@
 //! Stress below a surface.
 
 use asperity::motion::Watch;
-use asperity::operator::{Boundary, Edge};
 use asperity::stress::Stress;
 use asperity::subsurface::{Extreme, Maximum, Subsurface, Tractions};
-use asperity::{Choice, Error, Field, Grid};
+use asperity::{Error, Field, Grid};
 use numpy::{IntoPyArray, PyArray1, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use crate::arrays::{field, ok};
+use crate::arrays::{boundary, field, ok};
 use crate::surface::Heights;
 use crate::work;
 
@@ -22,8 +21,7 @@ fn body(py: Python<'_>, given: &LoadedBody<'_>) -> PyResult<(impl Fn() -> Subsur
     let ((pressure, pitch), shear, edges, poisson, is_upper) = given;
     let pressure = field(pressure);
     let grid = ok(Grid::new([pressure.nrows(), pressure.ncols()], *pitch), py)?;
-    let edge = |word: &String| Edge::of_word(word).expect("a boundary is one of the words");
-    let boundary = Boundary([edge(&edges[0]), edge(&edges[1])]);
+    let boundary = boundary(edges);
     let tractions = Tractions { pressure, shear: shear.each_ref().map(|shear| shear.as_ref().map(field)) };
     let tractions = if *is_upper { tractions.on_upper() } else { tractions };
     let poisson = *poisson;

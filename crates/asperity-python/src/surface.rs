@@ -76,25 +76,11 @@ pub(crate) fn write_surface(py: Python<'_>, path: PathBuf, heights: Heights<'_>)
     work::run(py, 1, None, |_| topography.write(path))
 }
 
+/// Returns the dimension with this noun: "length".
 fn dimension(name: &str) -> PyResult<Dimension> {
-    Ok(match name {
-        "length" => Dimension::Length,
-        "area" => Dimension::Area,
-        "volume" => Dimension::Volume,
-        "pressure" => Dimension::Pressure,
-        "force" => Dimension::Force,
-        "energy" => Dimension::Energy,
-        "speed" => Dimension::Speed,
-        "angle" => Dimension::Angle,
-        "time" => Dimension::Time,
-        "stiffness" => Dimension::Stiffness,
-        "conductivity" => Dimension::Conductivity,
-        "thermal insulance" => Dimension::ThermalInsulance,
-        "electrical conductivity" => Dimension::ElectricalConductivity,
-        "electrical insulance" => Dimension::ElectricalInsulance,
-        "viscosity" => Dimension::Viscosity,
-        _ => return Err(PyTypeError::new_err(format!("no dimension is called {name}"))),
-    })
+    let is_it = |known: &Dimension| known.noun().split_once(' ').is_some_and(|(_, noun)| noun == name);
+    let unknown = || PyTypeError::new_err(format!("no dimension is called {name}"));
+    Dimension::ALL.into_iter().find(is_it).ok_or_else(unknown)
 }
 
 /// Converts a quantity to SI, from a number or a text with a unit. `positive` requires it to be above 0,

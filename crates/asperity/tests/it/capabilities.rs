@@ -112,7 +112,6 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             // Its numbers in Python, its error, and the types that are made from its table.
             "asperity/_contact.py",
             "asperity/_html.py",
-            "asperity/_viewed.py",
             "asperity/errors.py",
             "asperity/keys.py",
         ],
