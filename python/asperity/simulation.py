@@ -114,7 +114,8 @@ class Pass(_Moving):
     @cached_property
     def contacts(self) -> Contacts:
         """Cells in contact at all positions."""
-        return Contacts(*self._core.contacts(self.number))
+        whole, real = self._core.contacts(self.number)
+        return Contacts(*whole, *real)
 
     @cached_property
     def steps(self) -> Table:

@@ -54,20 +54,10 @@ struct State {
     solved: Option<SolvedPass>,
 }
 
-/// Contacts of a pass as flat arrays: position, cell of the lower and of the upper body, pressure, plastic
+/// Contacts of a pass as flat arrays: position, cell of the lower and of the upper body; pressure, plastic
 /// interference, fractional displacement from the cells of the lower and of the upper body, shear,
 /// temperature.
-type Contacts<'py> = (
-    Bound<'py, PyArray1<i64>>,
-    Bound<'py, PyArray1<i64>>,
-    Bound<'py, PyArray1<i64>>,
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray1<f64>>,
-);
+type Contacts<'py> = ([Bound<'py, PyArray1<i64>>; 3], [Bound<'py, PyArray1<f64>>; 6]);
 
 #[pymethods]
 impl CorePasses {
@@ -158,16 +148,10 @@ impl CorePasses {
                 Some(of_cells) => temperature.extend(of_cells),
             }
         }
+        let reals = [pressure, plastic, beyond_lower, beyond_upper, shear, temperature];
         Ok((
-            position.into_pyarray(py),
-            lower.into_pyarray(py),
-            upper.into_pyarray(py),
-            pressure.into_pyarray(py),
-            plastic.into_pyarray(py),
-            beyond_lower.into_pyarray(py),
-            beyond_upper.into_pyarray(py),
-            shear.into_pyarray(py),
-            temperature.into_pyarray(py),
+            [position, lower, upper].map(|whole| whole.into_pyarray(py)),
+            reals.map(|real| real.into_pyarray(py)),
         ))
     }
 
