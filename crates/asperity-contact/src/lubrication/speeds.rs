@@ -19,8 +19,8 @@ const THICKNESSES: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 
 /// The films of two bodies at the speeds of a Stribeck curve, in any order.
 ///
-/// A film starts from the one at the nearest speed. Where there is none, or if it fails, it starts from a full
-/// film under the pressure of the dry contact, and from the dry contact itself. At last the film is followed in time
+/// A film starts from the one at the nearest speed. Where there is none, or if it fails, it starts from the dry
+/// contact or from a full film under its pressure, whichever leaves less residual, then from the other one. At last the film is followed in time
 /// from the dry contact.
 pub struct FilmSpeeds<'a> {
     problem: FilmProblem<'a>,
@@ -63,9 +63,8 @@ impl<'a> FilmSpeeds<'a> {
         {
             return Ok(solution);
         }
-        let full = self.full(operator, speed)?;
-        for start in [&full, &self.dry] {
-            if let Some(solution) = self.tried(operator, speed, start)? {
+        for start in self.starts(operator, speed)? {
+            if let Some(solution) = self.tried(operator, speed, &start)? {
                 return Ok(solution);
             }
         }
@@ -110,23 +109,35 @@ impl<'a> FilmSpeeds<'a> {
         }
     }
 
-    /// Returns a film full of oil under the pressure of the dry contact, of the thickness that leaves the least
-    /// residual.
-    fn full(&self, operator: &mut dyn Operator, speed: f64) -> Result<Film> {
-        let problem = FilmProblem { speed, ..self.problem };
-        let mut best: Option<(f64, Film)> = None;
+    /// Returns the dry contact and a film full of oil under its pressure, of the thickness that leaves the least
+    /// residual; the one that leaves less comes first.
+    fn starts(&self, operator: &mut dyn Operator, speed: f64) -> Result<[Film; 2]> {
+        let dry = self.norm(operator, speed, &self.dry)?;
+        let mut least: Option<(f64, Film)> = None;
         for thickness in THICKNESSES {
-            let least = thickness * problem.boundary_film;
-            let film = Film::full(operator, problem.gap, self.dry.solid_pressure.clone(), least);
-            let control = match problem.control {
-                Control::Approach(_) => Control::Approach(film.approach),
-                load @ Control::Load(_) => load,
+            let thicker = (thickness - 1.0) * self.problem.boundary_film;
+            let film = Film {
+                oil_pressure: self.dry.solid_pressure.clone(),
+                solid_pressure: self.dry.oil_pressure.clone(),
+                cavity: self.dry.cavity.clone(),
+                approach: self.dry.approach - thicker,
             };
-            let norm = FilmProblem { control, ..problem }.norm(operator, &film)?;
-            if best.as_ref().is_none_or(|(best, _)| norm < *best) {
-                best = Some((norm, film));
+            let norm = self.norm(operator, speed, &film)?;
+            if least.as_ref().is_none_or(|(least, _)| norm < *least) {
+                least = Some((norm, film));
             }
         }
-        Ok(best.expect("a thickness was tried").1)
+        let (norm, full) = least.expect("a thickness was tried");
+        let dry_film = self.dry.clone();
+        Ok(if norm < dry { [full, dry_film] } else { [dry_film, full] })
+    }
+
+    /// Returns the norm of all residuals of a film at its own approach, if an approach is prescribed.
+    fn norm(&self, operator: &mut dyn Operator, speed: f64, film: &Film) -> Result<f64> {
+        let control = match self.problem.control {
+            Control::Approach(_) => Control::Approach(film.approach),
+            load @ Control::Load(_) => load,
+        };
+        FilmProblem { speed, control, ..self.problem }.norm(operator, film)
     }
 }
