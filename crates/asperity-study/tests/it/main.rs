@@ -21,6 +21,7 @@ mod real_surface;
 mod resume;
 mod rolling;
 mod smooth_forms;
+mod snippets;
 mod subsurface;
 mod support;
 mod sweep;
