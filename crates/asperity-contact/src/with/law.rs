@@ -16,10 +16,6 @@ use asperity_base::table::{self, Source, Table};
 pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync + 'static {
     /// Name of its table, and of the law in results.
     const NAME: &'static str;
-    /// The law in words, after "a body with": "a film".
-    const WITH: &'static str;
-    /// An example of its table on the lower body, as written above the tables of a case file.
-    const EXAMPLE: &'static str;
     /// Its meaning in the list of the keys of a body.
     const MEANING: &'static str;
     /// Combinations that exclude it, and what it requires.

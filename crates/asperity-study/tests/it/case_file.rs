@@ -154,7 +154,7 @@ fn every_key_and_every_rule_is_explained_in_one_line() {
 fn every_rule_is_broken_by_its_example_and_says_so_at_its_key() {
     let mut wrong = Vec::new();
     for rule in asperity_study::rules() {
-        let text = case(&rule.example);
+        let text = case(rule.example);
         let found = match Case::parse(&text, Path::new("case.toml"), Path::new("")) {
             Err(Error::Case(error)) => error,
             other => {
@@ -166,12 +166,10 @@ fn every_rule_is_broken_by_its_example_and_says_so_at_its_key() {
         let value = found.text[found.span.clone()].split_whitespace().collect::<Vec<_>>().join(" ");
         let message =
             rule.message.replace("{key}", key).replace("{path}", &found.key).replace("{value}", &value);
-        let hint = Some(rule.hint.clone()).filter(|hint| !hint.is_empty());
+        let hint = Some(rule.hint.to_owned()).filter(|hint| !hint.is_empty());
         // A stage is identified by its array.
         let at = found.key.replace(['[', ']'], "");
-        if (&found.message, &found.hint, at.as_str()) != (&message, &hint, rule.at.as_str())
-            || found.span.is_empty()
-        {
+        if (&found.message, &found.hint, at.as_str()) != (&message, &hint, rule.at) || found.span.is_empty() {
             wrong.push(format!("{} with {}: {}: {}\n{text}", rule.this, rule.with, found.key, found.message));
         }
     }
@@ -179,7 +177,7 @@ fn every_rule_is_broken_by_its_example_and_says_so_at_its_key() {
 }
 
 /// A ball on a plate, with the keys of an example in place of its own.
-fn case(example: &[String]) -> String {
+fn case(example: &[&str]) -> String {
     const BASE: [(&str, &str); 7] = [
         ("lower.young", "\"210 GPa\""),
         ("lower.poisson", "0.3"),
@@ -191,7 +189,7 @@ fn case(example: &[String]) -> String {
     ];
     let given = |key: &str| example.iter().flat_map(|text| text.lines()).any(|line| line.starts_with(key));
     let base = BASE.iter().filter(|(key, _)| !given(key)).map(|(key, value)| format!("{key} = {value}"));
-    base.chain(example.iter().cloned()).collect::<Vec<_>>().join("\n")
+    base.chain(example.iter().map(|&text| text.to_owned())).collect::<Vec<_>>().join("\n")
 }
 
 /// Name of a section in comments: its first table, and the choice for which its keys apply.

@@ -58,6 +58,11 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             // The columns of laws, and a key of the extrapolation.
             "asperity-contact/src/motion/record/laws.rs",
             "asperity-contact/src/motion/extrapolation.rs",
+            // Rules that require a law name all of them.
+            "asperity-study/src/case/rules/examples.rs",
+            "asperity-study/src/case/rules/motion.rs",
+            "asperity-study/src/case/rules/running.rs",
+            "asperity-study/src/case/rules/temperature.rs",
             // A key of the solid lubricant, and the wear that is faster than fatigue.
             "with/film/table.rs",
             "with/fatigue/critical.rs",

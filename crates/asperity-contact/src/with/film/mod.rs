@@ -37,8 +37,6 @@ const MAX_EXPONENT: f64 = 500.0;
 
 impl BodyLaw for Film {
     const NAME: &'static str = FILM;
-    const WITH: &'static str = "a film";
-    const EXAMPLE: &'static str = rules::GROWS;
     const MEANING: &'static str = "growing tribofilm, see [below](#running-in)";
     const RULES: &'static [LawRule<Self>] = RULES;
     const EFFORT: f64 = 380.0;

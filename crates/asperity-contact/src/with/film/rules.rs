@@ -3,7 +3,7 @@
 use super::{Film, FilmLaw, FilmStress};
 use crate::with::{Circumstances, LawRule, Slip, Timeless};
 
-pub(super) const GROWS: &str =
+const GROWS: &str =
     r#"lower.film = { law = "mechano-chemical", max_thickness = "150 nm", x = 1e-16, c3 = 0, c4 = 0 }"#;
 const WARM: &str = r#"temperature = { bulk = "100 °C" }"#;
 const MOVES: &str = r#"motion = { speed = "0.5 m/s" }"#;

@@ -25,8 +25,6 @@ pub const WEAR: &str = "wear";
 
 impl BodyLaw for WearCoefficient {
     const NAME: &'static str = WEAR;
-    const WITH: &'static str = "wear";
-    const EXAMPLE: &'static str = rules::WEARS;
     const MEANING: &'static str = "wear law, see [below](#running-in)";
     const RULES: &'static [LawRule<Self>] = RULES;
     const EFFORT: f64 = 0.0;

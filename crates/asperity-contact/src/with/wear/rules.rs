@@ -3,7 +3,7 @@
 use super::{WearCoefficient, WearRate};
 use crate::with::{LawRule, Slip};
 
-pub(super) const WEARS: &str = r#"lower.wear = { coefficient = "1e-7 mm3/(N m)" }"#;
+const WEARS: &str = r#"lower.wear = { coefficient = "1e-7 mm3/(N m)" }"#;
 
 pub(super) const RULES: &[LawRule<WearCoefficient>] = &[
     LawRule {

@@ -1,7 +1,7 @@
 //! Keys shared by several examples, as written above the tables of a case file.
 
 /// A law changes a body: the example of the first law.
-pub(super) const CHANGES: &str = "{law example}";
+pub(super) const CHANGES: &str = r#"lower.wear = { coefficient = "1e-7 mm3/(N m)" }"#;
 
 /// A body deforms plastically.
 pub(super) const FLOWS: &str = r#"lower.plasticity = { yield_stress = "1.5 GPa" }"#;

@@ -25,30 +25,11 @@ use asperity_contact::with::{
 use asperity_contact::{each_capability, each_interface, each_law};
 
 /// The description of a rule: two entries of a case file exclude each other, or one requires the other.
-#[derive(Debug, Clone)]
-pub struct Exclusion {
-    /// The excluded entry, in Markdown.
-    pub this: String,
-    /// The entry that excludes it, in Markdown.
-    pub with: String,
-    /// The message of the error. `{key}` stands for the key that it points to, `{path}` for its dotted name,
-    /// `{value}` for its value.
-    pub message: String,
-    /// The hint; empty if the message is enough.
-    pub hint: String,
-    /// The dotted key that the error of the example points to.
-    pub at: String,
-    /// Keys that break the rule, as written above the tables of a case file.
-    pub example: Vec<String>,
-}
+pub type Exclusion = table::Rule<()>;
 
-impl Exclusion {
-    fn of<F>(rule: &table::Rule<F>) -> Self {
-        let [this, with, message, hint, at] =
-            [rule.this, rule.with, rule.message, rule.hint, rule.at].map(with_laws);
-        let example = rule.example.iter().map(|text| with_laws(text)).collect();
-        Self { this, with, message, hint, at, example }
-    }
+fn described<F>(rule: &table::Rule<F>) -> Exclusion {
+    let table::Rule { this, with, message, hint, at, example, .. } = *rule;
+    table::Rule { this, with, message, hint, at, example, broken: () }
 }
 
 /// A rule that the tables of a case break: it finds the entry that does.
@@ -82,36 +63,19 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
 
 /// Returns the rules of a case file, in the order in which a case is checked.
 pub fn rules() -> Vec<Exclusion> {
-    let mut exclusions: Vec<_> = OF_THE_CONTACT.into_iter().flatten().map(Exclusion::of).collect();
-    each_law!(L => exclusions.extend(L::RULES.iter().map(Exclusion::of)));
-    exclusions.extend(OF_THE_REST.into_iter().flatten().map(Exclusion::of));
-    each_interface!(I => exclusions.extend(I::RULES.iter().map(Exclusion::of)));
-    each_capability!(C => exclusions.extend(C::RULES.iter().map(Exclusion::of)));
+    let mut exclusions: Vec<_> = OF_THE_CONTACT.into_iter().flatten().map(described).collect();
+    each_law!(L => exclusions.extend(L::RULES.iter().map(described)));
+    exclusions.extend(OF_THE_REST.into_iter().flatten().map(described));
+    each_interface!(I => exclusions.extend(I::RULES.iter().map(described)));
+    each_capability!(C => exclusions.extend(C::RULES.iter().map(described)));
     exclusions
-}
-
-/// Puts the laws of a body into a text of a rule: `{a law}` are all of them in words, `{law tables}` their
-/// tables, `{law}` and `{law example}` the name and the example of the first one.
-fn with_laws(text: &str) -> String {
-    let (mut laws, mut tables, mut names, mut examples) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    each_law!(L => {
-        laws.push(L::WITH);
-        tables.push(format!("`[lower.{}]`", L::NAME));
-        names.push(L::NAME);
-        examples.push(L::EXAMPLE);
-    });
-    text.replace("{a law}", &laws.join(" or "))
-        .replace("{law tables}", &tables.join(" or "))
-        .replace("{law example}", examples[0])
-        .replace("{law}", names[0])
 }
 
 /// Returns the error for an entry that breaks a rule.
 fn refused<F>(rule: &table::Rule<F>, entry: &Entry<'_>) -> Error {
-    let [message, hint] = [rule.message, rule.hint].map(with_laws);
-    let message = message.replace("{key}", entry.key()).replace("{path}", entry.path());
+    let message = rule.message.replace("{key}", entry.key()).replace("{path}", entry.path());
     let message = message.replace("{value}", &entry.written());
-    entry.error(message, Some(hint).filter(|hint| !hint.is_empty()))
+    entry.error(message, Some(rule.hint.to_owned()).filter(|hint| !hint.is_empty()))
 }
 
 impl<'a> Tables<'a> {

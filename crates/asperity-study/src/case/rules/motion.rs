@@ -143,9 +143,9 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "[sliding]",
-        with: "bodies without {a law}",
-        message: "[sliding] needs a body with {a law}",
-        hint: "give a body {law tables}, or leave [sliding] out",
+        with: "bodies without wear or a film",
+        message: "[sliding] needs a body with wear or a film",
+        hint: "give a body `[lower.wear]` or `[lower.film]`, or leave [sliding] out",
         at: "sliding",
         example: &[SLIDES],
         broken: |tables| tables.at("sliding").filter(|_| !tables.case.runs_in()),

@@ -22,7 +22,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "[acceleration]",
         with: "bodies that passes do not change",
         message: "[acceleration] needs a body that passes change",
-        hint: "give a body {law tables}, or leave [acceleration] out",
+        hint: "give a body `[lower.wear]` or `[lower.film]`, or leave [acceleration] out",
         at: "acceleration",
         example: &[MOVES, JUMPS],
         broken: |tables| tables.at("acceleration").filter(|_| !tables.case.is_changed_by_cycles()),

@@ -48,7 +48,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[temperature]",
         with: "a static contact",
-        message: "[temperature] needs [motion], [sliding], bodies with {a law} that slip, or viscoelastic ones with `wlf_c1`",
+        message: "[temperature] needs [motion], [sliding], bodies with wear or a film that slip, or viscoelastic ones with `wlf_c1`",
         hint: "",
         at: "temperature",
         example: &[WARM],
