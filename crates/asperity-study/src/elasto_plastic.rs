@@ -1,7 +1,5 @@
 //! Elasto-plastic bodies of a case, as arguments of a contact.
 
-use std::sync::Arc;
-
 use crate::case::Case;
 use asperity_base::error::Result;
 use asperity_contact::motion::{Pair, Stage};
@@ -15,7 +13,7 @@ pub(super) fn bodies(case: &Case, spec: &PlasticRegion, pair: &Pair) -> Result<[
         let body = [&case.lower, &case.upper][index];
         let Some(flow) = &body.plasticity else { return Ok(None) };
         let volume = Volume::new(grids[index], spec.layers()?, case.contact.boundary, &body.material)?;
-        Ok(Some(PlasticBody::new(volume, Arc::new(flow.law()?))))
+        Ok(Some(PlasticBody::new(volume, flow.law()?)))
     };
     Ok([of_body(0)?, of_body(1)?])
 }

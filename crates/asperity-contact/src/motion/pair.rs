@@ -177,7 +177,7 @@ impl Pair {
     /// Whether pressure displaces the bodies tangentially, and shear displaces them normally; false if the
     /// response to shear is unknown.
     pub(super) fn couples(&self) -> bool {
-        self.response.coupled().is_some_and(|coupled| coupled.couples())
+        self.response.compliances().is_some_and(Compliances::couples)
     }
 
     /// Returns [`Error::Unsupported`] if contacts with stick are not solved between these bodies.
@@ -189,7 +189,7 @@ impl Pair {
     /// Returns [`Error::Unsupported`] if the response to shear is unknown.
     pub(super) fn check_shear(&self) -> Result<()> {
         self.response
-            .coupled()
+            .compliances()
             .map(|_| ())
             .ok_or(Error::Unsupported("these bodies support friction only in gross sliding without coupling"))
     }

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use ndarray::s;
 
-use super::law::{CellState, PlasticLaw, Tensor, contract, equivalent};
+use super::j2::J2;
+use super::law::{CellState, Tensor, contract, equivalent};
 use super::{COMPONENTS, TensorField, Volume, VolumeField};
 use crate::grid::Field;
 use crate::kernel::Traction;
@@ -52,7 +53,7 @@ pub struct PlasticState {
 /// An elasto-plastic half-space: the volume under its surface, its flow law, and its plastic state.
 pub struct PlasticBody {
     volume: Volume,
-    law: Arc<dyn PlasticLaw>,
+    law: J2,
     state: PlasticState,
     /// Present loading, and the stress under it.
     action: Option<Action>,
@@ -93,7 +94,7 @@ type Place = usize;
 
 impl PlasticBody {
     /// Creates an unloaded body without plastic strain.
-    pub fn new(volume: Volume, law: Arc<dyn PlasticLaw>) -> Self {
+    pub fn new(volume: Volume, law: J2) -> Self {
         let zeros = || volume.zeros();
         let shape = [volume.layers().count(), volume.grid().shape[0], volume.grid().shape[1]];
         Self {
@@ -163,8 +164,8 @@ impl PlasticBody {
     }
 
     /// The flow law.
-    pub fn law(&self) -> &dyn PlasticLaw {
-        &*self.law
+    pub fn law(&self) -> &J2 {
+        &self.law
     }
 
     /// Plastic strain ε.

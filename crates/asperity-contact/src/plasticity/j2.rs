@@ -1,7 +1,7 @@
 //! J2 plasticity: flow along the deviator of the stress.
 
 use super::hardening::Hardening;
-use super::law::{CellState, PlasticLaw, Tensor, equivalent};
+use super::law::{CellState, Tensor, equivalent};
 use crate::error::{Error, Result, check, check_in};
 use crate::units::{Dimension, Pascal};
 
@@ -84,10 +84,13 @@ impl J2 {
         }
         flow
     }
-}
 
-impl PlasticLaw for J2 {
-    fn flow(&self, predictor: &Tensor, stiffness: Pascal, state: &CellState) -> Option<CellState> {
+    /// Returns the state after an increment from `state`, if the cell flows.
+    ///
+    /// The `predictor` is y = dev σ + `stiffness` ε, Pa, with the unknown plastic strain ε. It does not
+    /// change in the increment if the stress relaxes by the stiffness times the strain. With 2μ it is the
+    /// stress of the total strain.
+    pub fn flow(&self, predictor: &Tensor, stiffness: Pascal, state: &CellState) -> Option<CellState> {
         let trial = self.driving(predictor, stiffness, state, 0.0);
         let excess = equivalent(&trial) - self.hardening.yield_stress(state.accumulated);
         if excess <= 0.0 {
@@ -110,11 +113,13 @@ impl PlasticLaw for J2 {
         })
     }
 
-    fn yield_stress(&self) -> Pascal {
+    /// Yield stress in tension of virgin material, Pa.
+    pub fn yield_stress(&self) -> Pascal {
         self.hardening.initial()
     }
 
-    fn is_kinematic(&self) -> bool {
+    /// Whether the law has a back stress.
+    pub fn is_kinematic(&self) -> bool {
         self.kinematic > 0.0
     }
 }

@@ -10,12 +10,12 @@
 //! g = h − δ + C p + r₁ + r₂ ≥ 0        the gap between two such bodies
 //! ```
 //!
-//! [`Volume`] implements these operators, and a [`PlasticLaw`] determines the growth of ε. Jacq, Nélias,
+//! [`Volume`] implements these operators, and [`J2`] determines the growth of ε. Jacq, Nélias,
 //! Lormand and Girodin, J. Tribol. 124, 653 (2002); for the operators see [`Volume`].
 //!
 //! ```
 //! use asperity_contact::material::Material;
-//! use asperity_contact::plasticity::{CellState, PlasticLaw, Hardening, J2, Layers, Volume};
+//! use asperity_contact::plasticity::{CellState, Hardening, J2, Layers, Volume};
 //! use asperity_contact::subsurface::Tractions;
 //! use asperity_contact::{Field, Grid};
 //! use asperity_contact::operator::Boundary;
@@ -58,7 +58,7 @@ pub use contact::{PlasticContact, RelativePosition};
 pub use hardening::Hardening;
 pub use increment::{Increment, Loading, PlasticParams, advance};
 pub use j2::J2;
-pub use law::{CellState, PlasticLaw, Tensor};
+pub use law::{CellState, Tensor};
 pub use layers::{Layers, MAX_LAYERS};
 pub use volume::Volume;
 

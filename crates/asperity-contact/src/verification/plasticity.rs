@@ -59,7 +59,7 @@ impl Sphere {
             bounds: Bounds::ELASTIC,
             placements: [Placement::flush(grid.shape); 2],
         };
-        let body = PlasticBody::new(volume, Arc::new(law));
+        let body = PlasticBody::new(volume, law);
         Ok(PlasticContact::new(facing, [Some(body), None], flow, PARAMS))
     }
 }
@@ -349,7 +349,7 @@ fn line(peak: f64, law: J2, passes: usize) -> Result<(Vec<Pass>, PlasticBody)> {
     let middle = 0.5 * grid.extent()[0];
     let pressure = Field::from_shape_fn(grid.shape, |(i, _)| mean(grid.centre(0, i) - middle));
     let mut load = MovingStress::under(&mut volume, pressure, [-1.0, -2.0 * POISSON]);
-    let mut body = PlasticBody::new(volume, Arc::new(law));
+    let mut body = PlasticBody::new(volume, law);
     let passes = (0..passes).map(|_| roll(&mut body, &mut load)).collect::<Result<Vec<_>>>()?;
     Ok((passes, body))
 }
@@ -451,7 +451,7 @@ fn point(peak: f64, passes: usize) -> Result<Vec<Pass>> {
     });
     let limit = -(0.5 + POISSON);
     let mut load = MovingStress::under(&mut volume, pressure, [limit; 2]);
-    let mut body = PlasticBody::new(volume, Arc::new(perfect()?));
+    let mut body = PlasticBody::new(volume, perfect()?);
     let passes = (0..passes).map(|_| roll(&mut body, &mut load)).collect::<Result<Vec<_>>>()?;
     Ok(passes)
 }

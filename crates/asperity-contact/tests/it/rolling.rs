@@ -1,7 +1,5 @@
 //! Elasto-plastic bodies that move over each other.
 
-use std::sync::Arc;
-
 use asperity_base::{Error, Field, Grid};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{LoadControl, Motion, Pair, Regime, Simulation, StepRecord, Strategy};
@@ -23,7 +21,7 @@ fn flowing(shape: [usize; 2], boundary: Boundary, kinematic: f64) -> PlasticBody
     let layers = Layers::new(60e-6, 8, 1.15).unwrap();
     let law = J2::new(Hardening::perfect(1.5e9).unwrap());
     let law = if kinematic > 0.0 { law.with_back_stress(kinematic, 0.0).unwrap() } else { law };
-    PlasticBody::new(Volume::new(grid, layers, boundary, &steel(f64::INFINITY)).unwrap(), Arc::new(law))
+    PlasticBody::new(Volume::new(grid, layers, boundary, &steel(f64::INFINITY)).unwrap(), law)
 }
 
 /// A surface with this grid, from its height as a function of x and y relative to its middle.

@@ -1,8 +1,6 @@
 //! Elasto-plastic bodies that lose material, that warm up, and that meet a body with a hardness; laws and
 //! heat under plastic deformation at each position.
 
-use std::sync::Arc;
-
 use asperity_base::{Field, Grid};
 use asperity_contact::motion::{
     Changes, Contact, ContactCells, Cycles, Law, LoadControl, LoadedContact, Motion, Pair, PlasticPath,
@@ -28,7 +26,7 @@ fn flowing(yield_stress: f64) -> PlasticBody {
     let grid = Grid::new(SHAPE, [PITCH; 2]).unwrap();
     let volume =
         Volume::new(grid, Layers::between(&faces).unwrap(), Boundary::PERIODIC, &steel(f64::INFINITY));
-    PlasticBody::new(volume.unwrap(), Arc::new(J2::new(Hardening::perfect(yield_stress).unwrap())))
+    PlasticBody::new(volume.unwrap(), J2::new(Hardening::perfect(yield_stress).unwrap()))
 }
 
 /// A ball of a radius of 0.5 mm on a flat body.

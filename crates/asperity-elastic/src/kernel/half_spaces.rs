@@ -1,11 +1,8 @@
 //! Response of homogeneous half-spaces.
 
 use crate::grid::Field;
-use crate::kernel::spectral::{harmonic_displacement, harmonic_displacements};
-use crate::kernel::{
-    Coefficients, CoupledResponse, Influence, Line, Response, SharedResponse, coupled_displacement,
-    normal_displacement,
-};
+use crate::kernel::spectral::harmonic_displacement;
+use crate::kernel::{Influence, Line, Response, SharedResponse, normal_displacement};
 use crate::material::Compliances;
 use crate::units::{Metre, Pascal};
 
@@ -61,26 +58,8 @@ impl Response for HalfSpaces {
         Some(self.modulus)
     }
 
-    fn coupled(&self) -> Option<&dyn CoupledResponse> {
-        self.compliances.as_ref().map(|compliances| compliances as &dyn CoupledResponse)
-    }
-}
-
-impl CoupledResponse for Compliances {
-    fn couples(&self) -> bool {
-        self.coupling != 0.0
-    }
-
-    fn harmonic_displacements(&self, qx: f64, qy: f64) -> Coefficients {
-        harmonic_displacements(qx, qy, self)
-    }
-
-    fn displacement(&self, x: Metre, y: Metre, pitch: [Metre; 2]) -> Coefficients {
-        coupled_displacement(x, y, pitch, self)
-    }
-
-    fn line_displacement(&self, line: &Line, x: Metre, y: Metre, pitch: [Metre; 2]) -> Option<Coefficients> {
-        Some(line.coupled_displacement(x, y, pitch, self))
+    fn compliances(&self) -> Option<&Compliances> {
+        self.compliances.as_ref()
     }
 }
 

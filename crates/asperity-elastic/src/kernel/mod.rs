@@ -19,5 +19,5 @@ pub use half_spaces::HalfSpaces;
 pub use layering::Layering;
 pub use line::Line;
 pub use normal::{influence_matrix, influence_table, normal_displacement, normal_displacements_across};
-pub use response::{CoupledResponse, Influence, Response, SharedResponse};
+pub use response::{Influence, Response, SharedResponse};
 pub use subsurface::{Traction, cell_stress, harmonic_stress, stress_table};

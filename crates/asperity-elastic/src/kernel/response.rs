@@ -5,7 +5,8 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use crate::grid::Field;
-use crate::kernel::{Coefficients, Line};
+use crate::kernel::Line;
+use crate::material::Compliances;
 use crate::math::parallel;
 use crate::units::{Metre, Pascal};
 
@@ -38,30 +39,12 @@ pub trait Response: Debug + Send + Sync {
         None
     }
 
-    /// Returns the response in all directions to a traction in any direction; `None` if it is unknown.
-    /// Friction is then limited to full sliding without normal displacement.
-    fn coupled(&self) -> Option<&dyn CoupledResponse> {
+    /// Returns the compliances of homogeneous half-spaces, which give the displacement in all directions under
+    /// a traction in any direction; `None` if it is unknown. Friction is then limited to full sliding without
+    /// normal displacement.
+    fn compliances(&self) -> Option<&Compliances> {
         None
     }
-}
-
-/// Displacement of a pair of bodies in all directions under a traction in any direction, with the order and
-/// signs of [`Coefficients`].
-pub trait CoupledResponse: Send + Sync {
-    /// Whether a pressure displaces tangentially and a shear normally. It is false if all zx and zy are 0.
-    fn couples(&self) -> bool;
-
-    /// Returns the displacements per unit traction of the harmonic of angular wavenumber `(qx, qy)`, m/Pa, 0
-    /// at q = 0. zx and zy are the imaginary parts of purely imaginary coefficients.
-    fn harmonic_displacements(&self, qx: f64, qy: f64) -> Coefficients;
-
-    /// Returns the displacement at `(x, y)` per unit traction on the cell of size `pitch` centred at the
-    /// origin, m/Pa.
-    fn displacement(&self, x: Metre, y: Metre, pitch: [Metre; 2]) -> Coefficients;
-
-    /// Returns the displacement at `(x, y)` per unit traction on each cell of size `pitch` in a `line`, m/Pa;
-    /// `None` if it is unknown. One of the cells is centred at the origin.
-    fn line_displacement(&self, line: &Line, x: Metre, y: Metre, pitch: [Metre; 2]) -> Option<Coefficients>;
 }
 
 /// Normal displacement around a loaded cell centred at the origin.

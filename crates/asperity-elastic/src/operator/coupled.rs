@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use crate::grid::{Field, Grid, SingleField};
-use crate::kernel::{Coefficients, CoupledResponse, CoupledTable, Line, SharedResponse};
+use crate::kernel::spectral::harmonic_displacements;
+use crate::kernel::{Coefficients, CoupledTable, Line, SharedResponse, coupled_displacement};
+use crate::material::Compliances;
 use crate::math::fft::angular_frequency;
 use crate::math::{MixedTensorConvolution, MixedTensorKernel, TensorKernel};
 use crate::operator::{DirectSum, Operator};
@@ -57,8 +59,9 @@ impl CoupledSum {
     /// If the response is only known in the normal direction.
     pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Self {
         let response = response.into();
-        let coupled = response.coupled().expect("a response to shear");
-        let (couples, table) = (coupled.couples(), CoupledTable::new(grid.shape, grid.pitch, coupled));
+        let compliances = response.compliances().expect("a response to shear");
+        let table = CoupledTable::new(grid.shape, grid.pitch, compliances);
+        let couples = compliances.couples();
         Self { normal: DirectSum::new(grid, response), couples, table }
     }
 }
@@ -112,16 +115,14 @@ impl CoupledKernel {
     pub(super) fn free(
         padded: [usize; 2],
         pitch: [f64; 2],
-        response: &dyn CoupledResponse,
+        compliances: &Compliances,
         line: Option<&Line>,
     ) -> Arc<Self> {
         let at = |i: usize, j: usize| {
             let (x, y) = (i as f64 * pitch[0], j as f64 * pitch[1]);
             match line {
-                None => response.displacement(x, y, pitch),
-                Some(line) => {
-                    response.line_displacement(line, x, y, pitch).expect("a response that knows lines")
-                }
+                None => coupled_displacement(x, y, pitch, compliances),
+                Some(line) => line.coupled_displacement(x, y, pitch, compliances),
             }
         };
         let kernel = TensorKernel::from_values(padded, |i, j| in_order(at(i, j)));
@@ -129,10 +130,10 @@ impl CoupledKernel {
     }
 
     /// Creates the kernel for the periodic `grid`.
-    pub(super) fn periodic(grid: &Grid, response: &dyn CoupledResponse) -> Arc<Self> {
+    pub(super) fn periodic(grid: &Grid, compliances: &Compliances) -> Arc<Self> {
         let q = |bin: usize, axis: usize| angular_frequency(bin, grid.shape[axis], grid.pitch[axis]);
         let kernel = Arc::new(MixedTensorKernel::new(TensorKernel::from_transforms(grid.shape, |kx, ky| {
-            in_order(response.harmonic_displacements(q(kx, 0), q(ky, 1)))
+            in_order(harmonic_displacements(q(kx, 0), q(ky, 1), compliances))
         })));
         let mut convolution = MixedTensorConvolution::new(Arc::clone(&kernel), grid.shape);
         let mut unit = grid.zeros();

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::grid::{Field, Grid};
-use crate::kernel::{CoupledResponse, SharedResponse};
+use crate::kernel::SharedResponse;
 use crate::operator::coupled::CoupledKernel;
 use crate::operator::shared::Shared;
 use crate::operator::{
@@ -76,15 +76,15 @@ impl Operators {
     pub fn coupled_on(&self, shape: [usize; 2]) -> Box<dyn CoupledOperator> {
         let grid = self.grid(shape);
         let padded = self.boundary.padded(shape);
-        let response = self.coupled_response();
+        let compliances = self.response.compliances().expect("a response to shear");
         let kernel = self.coupled.get(padded, || match &self.normal {
             Normal::Free(_) => {
                 let line = self.boundary.line(&grid, self.boundary.datum(&self.largest));
-                CoupledKernel::free(padded, grid.pitch, response, line.as_ref())
+                CoupledKernel::free(padded, grid.pitch, compliances, line.as_ref())
             }
-            Normal::Periodic(_) => CoupledKernel::periodic(&grid, response),
+            Normal::Periodic(_) => CoupledKernel::periodic(&grid, compliances),
         });
-        Box::new(kernel.operator(grid, response.couples(), self.on(shape)))
+        Box::new(kernel.operator(grid, compliances.couples(), self.on(shape)))
     }
 
     /// Returns the largest displacement under a uniform unit pressure on `shape` cells, m/Pa.
@@ -92,10 +92,6 @@ impl Operators {
         let mut displacement = Field::zeros(shape);
         self.on(shape).apply(&Field::ones(shape), &mut displacement);
         displacement.iter().fold(0.0, |most, u| most.max(*u))
-    }
-
-    fn coupled_response(&self) -> &dyn CoupledResponse {
-        self.response.coupled().expect("a response to shear")
     }
 
     fn grid(&self, shape: [usize; 2]) -> Grid {

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::support::crates;
+use crate::support::{crates, files_below};
 
 /// A word, the folders of its capability, and the files outside them in which the word stands.
 const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
@@ -212,12 +212,4 @@ fn the_name_of_a_capability_stands_outside_its_folder_in_few_files() {
 /// Whether the word before this text is the name of a journal, which a volume follows: "Wear 42, 263 (1977)".
 fn is_journal(text: &str) -> bool {
     text.strip_prefix(' ').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
-}
-
-fn files_below(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    entries
-        .flat_map(|path| if path.is_dir() { files_below(&path) } else { vec![path] })
-        .filter(|path| path.extension().is_some_and(|kind| kind == "rs" || kind == "py"))
-        .collect()
 }

@@ -7,4 +7,5 @@ mod files;
 mod messages;
 mod module_order;
 mod support;
+mod traits;
 mod versions;

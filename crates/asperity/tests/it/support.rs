@@ -1,4 +1,4 @@
-//! The crates beside this one.
+//! The crates beside this one, and their files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,4 +14,13 @@ pub(crate) fn crates() -> Vec<(String, PathBuf)> {
     crates.sort();
     assert!(crates.len() > 5, "{crates:?}");
     crates
+}
+
+/// Returns the files of Rust and Python below a folder.
+pub(crate) fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    entries
+        .flat_map(|path| if path.is_dir() { files_below(&path) } else { vec![path] })
+        .filter(|path| path.extension().is_some_and(|kind| kind == "rs" || kind == "py"))
+        .collect()
 }

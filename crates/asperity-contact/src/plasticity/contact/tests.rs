@@ -32,7 +32,7 @@ fn gap(n: usize) -> Field {
 fn body(n: usize, layers: usize, law: J2) -> PlasticBody {
     let grid = Grid::new([n, n], [1.0 / n as f64; 2]).unwrap();
     let layers = Layers::new(0.35, layers, 1.0).unwrap();
-    PlasticBody::new(Volume::new(grid, layers, Boundary::PERIODIC, &steel()).unwrap(), Arc::new(law))
+    PlasticBody::new(Volume::new(grid, layers, Boundary::PERIODIC, &steel()).unwrap(), law)
 }
 
 fn perfect() -> J2 {
@@ -245,7 +245,7 @@ impl Ball {
         (0..layers).for_each(|layer| faces.push(faces[layer] + 1.1f64.powi(layer as i32)));
         let layers = Layers::between(&faces).unwrap();
         let volume = Volume::new(self.grid, layers, Boundary::PERIODIC, &steel()).unwrap();
-        PlasticBody::new(volume, Arc::new(perfect()))
+        PlasticBody::new(volume, perfect())
     }
 
     /// Presses the ball in at `from` and rolls it to `to`; returns the operator applications of each position
@@ -341,7 +341,7 @@ fn the_work_of_pressure_and_friction_is_stored_and_spent() {
         let of = |material: &Material, yields: f64| {
             let layers = Layers::new(0.35, 8, 1.1).unwrap();
             let law = J2::new(Hardening::linear(yields, 0.05).unwrap());
-            Some(PlasticBody::new(Volume::new(grid, layers, boundary, material).unwrap(), Arc::new(law)))
+            Some(PlasticBody::new(Volume::new(grid, layers, boundary, material).unwrap(), law))
         };
         let solver = Box::new(StickSlip::new(operators.coupled_on(grid.shape), Arc::new(HardWall), friction));
         let facing = RelativePosition {
@@ -406,7 +406,7 @@ fn friction_without_flow_is_that_of_elastic_bodies() {
     let friction = Friction::coulomb(0.3).unwrap();
     let layers = Layers::new(0.35, 4, 1.0).unwrap();
     let volume = Volume::new(grid, layers, Boundary::FREE, &steel()).unwrap();
-    let strong = PlasticBody::new(volume, Arc::new(J2::new(Hardening::perfect(1.0).unwrap())));
+    let strong = PlasticBody::new(volume, J2::new(Hardening::perfect(1.0).unwrap()));
     let solver = Box::new(StickSlip::new(operators.coupled_on(grid.shape), Arc::new(HardWall), friction));
     let facing = RelativePosition {
         solver,
