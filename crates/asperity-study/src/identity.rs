@@ -160,6 +160,10 @@ fn difference(path: &str, before: &Value, now: &Value) -> Option<(String, [Strin
 }
 
 #[cfg(test)]
+#[path = "../tests/it/ball.rs"]
+mod ball;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
@@ -203,15 +207,10 @@ mod tests {
     #[test]
     fn the_identity_of_a_case_stays_what_it_was() {
         // Frozen: a change makes it impossible to resume earlier results.
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/inputs/good");
-        let mut files: Vec<_> =
-            std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-        files.sort();
-        let identities: Vec<_> = files
+        let identities: Vec<_> = super::ball::good_cases()
             .iter()
-            .map(|path| {
-                let text = std::fs::read_to_string(path).unwrap();
-                let case = Case::parse(&text, path, Path::new("")).unwrap();
+            .map(|(path, text)| {
+                let case = Case::parse(text, path, Path::new("")).unwrap();
                 let name = path.file_stem().unwrap().to_string_lossy().into_owned();
                 (name, of(&serde_json::to_value(case).unwrap())[..8].to_owned())
             })

@@ -13,6 +13,8 @@ use asperity_base::error::CaseError;
 use asperity_study::Case;
 use asperity_study::many::Study;
 
+use crate::ball::good_cases;
+
 /// A good case, a ball on a plane.
 const BALL: [(&str, &str); 3] = [
     (
@@ -76,7 +78,7 @@ impl Row {
 
 fn rows() -> Vec<Row> {
     let mut rows = Vec::new();
-    for path in files("bad") {
+    for path in files() {
         let file = path.file_stem().unwrap().to_str().unwrap().to_owned();
         let text = std::fs::read_to_string(&path).unwrap();
         let text = text.strip_prefix("### ").unwrap_or_else(|| panic!("{file} does not begin with a row"));
@@ -124,7 +126,7 @@ fn a_file_that_is_not_there_is_named() {
 /// panic, and the place of each error can be shown.
 #[test]
 fn a_damaged_case_never_panics() {
-    let good: Vec<_> = files("good").iter().map(|file| std::fs::read_to_string(file).unwrap()).collect();
+    let good: Vec<_> = good_cases().into_iter().map(|(_, text)| text).collect();
     arbtest::arbtest(|u| {
         let mut text = u.choose(&good)?.clone();
         for _ in 0..u.int_in_range(1..=3)? {
@@ -215,9 +217,8 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/inputs/bad")
 }
 
-fn files(kind: &str) -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/inputs").join(kind);
-    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+fn files() -> Vec<PathBuf> {
+    let mut files: Vec<_> = std::fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
     files
 }

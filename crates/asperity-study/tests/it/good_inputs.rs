@@ -18,6 +18,7 @@ use asperity_surface::{
     Interpolation, Level, LowPass, Preparation, Resample, SelfAffine, Topography,
 };
 
+use crate::ball::{ball, completed, good_cases};
 use crate::support::{parsed, parsed_in};
 
 #[test]
@@ -388,10 +389,9 @@ fn creepages_are_points_of_a_sweep_under_one_load() {
     for (k, [x, y]) in by_ratio.into_iter().enumerate() {
         assert!((x / 10f64.powf(-4.0 + 0.5 * k as f64) - 1.0).abs() < 1e-12 && y == 0.0, "{k}: {x}, {y}");
     }
-    let text = std::fs::read_to_string(inputs("good").join("swept_creepages.toml")).unwrap();
     let through = |value: &str| {
-        let line = text.lines().find(|line| line.starts_with("creepages")).unwrap();
-        let text = text.replace(line, &format!("creepages = {value}"));
+        let text = format!("[friction]\ncoefficient = 0.3\ncreepages = {value}");
+        let text = toml::to_string(&completed(text.parse().unwrap(), &ball())).unwrap();
         let Course::Sweep(points) = parsed(&text).course(1.0) else { panic!() };
         creepages(&points)
     };
@@ -429,9 +429,8 @@ fn a_later_error_still_finds_its_place() {
 
 #[test]
 fn a_case_deserialises_into_what_it_was_serialised_from() {
-    for file in std::fs::read_dir(inputs("good")).unwrap() {
-        let path = file.unwrap().path();
-        let first = Case::load(&path).unwrap();
+    for (path, text) in good_cases() {
+        let first = Case::parse(&text, &path, path.parent().unwrap()).unwrap();
         let json = serde_json::to_value(&first).unwrap();
         let again: Case = serde_json::from_value(json.clone())
             .unwrap_or_else(|e| panic!("{}: {e}\n{json:#}", path.display()));
@@ -442,7 +441,8 @@ fn a_case_deserialises_into_what_it_was_serialised_from() {
 }
 
 fn load(name: &str) -> Case {
-    Case::load(&inputs("good").join(name).with_extension("toml")).unwrap()
+    let (path, text) = good_cases().into_iter().find(|(path, _)| path.file_stem().unwrap() == name).unwrap();
+    Case::parse(&text, &path, path.parent().unwrap()).unwrap()
 }
 
 fn prepared(case: &Case) -> Bodies {

@@ -1,6 +1,7 @@
 //! Tests of case files, runs and results, as one program with a module for each subject.
 
 mod bad_inputs;
+mod ball;
 mod case_file;
 mod common_grid;
 mod documents;

@@ -8,19 +8,14 @@ use asperity_study::Case;
 use asperity_study::case::schema::Section;
 use toml::{Table, Value};
 
-/// A ball on a plane, of which a snippet shows some tables.
-const BALL: &str = r#"
-lower = { young = 210e9, poisson = 0.3, topography = { form = "flat", shape = [64, 64], pitch = 1e-6 } }
-upper = { young = 210e9, poisson = 0.3, topography = { form = "sphere", radius = 1e-3 } }
-contact = { load = 2 }
-"#;
+use crate::ball::{ball, completed};
 
 #[test]
 fn every_snippet_of_its_pages_is_valid_in_the_case_of_a_ball() {
     let mut wrong = Vec::new();
     for page in pages() {
         for snippet in snippets(&page) {
-            let case = toml::to_string(&completed(snippet, BALL.parse().unwrap())).unwrap();
+            let case = toml::to_string(&completed(snippet, &ball())).unwrap();
             if let Err(error) = Case::parse(&case, &page, Path::new("")) {
                 wrong.push(format!("{error}\n{case}"));
             }
@@ -100,24 +95,6 @@ fn gather(path: &str, table: &Table, keys: &mut BTreeSet<String>) {
         let inner = name.trim_end_matches(".plus");
         items.iter().filter_map(Value::as_table).for_each(|table| gather(inner, table, keys));
     }
-}
-
-/// Adds what a snippet lacks of a case. A topography and a load stay as they are.
-fn completed(mut snippet: Table, case: Table) -> Table {
-    const LOADS: [&str; 5] = ["mean_pressure", "approach", "loads", "mean_pressures", "approaches"];
-    for (key, value) in case {
-        match (snippet.remove(&key), value) {
-            (Some(Value::Table(part)), Value::Table(all)) if key != "topography" => {
-                snippet.insert(key, Value::Table(completed(part, all)));
-            }
-            (Some(part), _) => _ = snippet.insert(key, part),
-            (None, value) if key != "load" || !LOADS.iter().any(|load| snippet.contains_key(*load)) => {
-                snippet.insert(key, value);
-            }
-            (None, _) => {}
-        }
-    }
-    snippet
 }
 
 /// The pages of the case file.
