@@ -13,7 +13,7 @@
 #![expect(clippy::print_stdout, reason = "the table is what it is for")]
 
 use std::error::Error;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 use std::time::Instant;
 
 use asperity::material::Material;
@@ -78,7 +78,7 @@ fn measure(side: usize, layers: usize, boundary: Boundary) -> Result<(), Box<dyn
     drop(strain);
     drop(operator);
 
-    let law = Arc::new(J2::new(Hardening::linear(1.0, 20.0)?));
+    let law = J2::new(Hardening::linear(1.0, 20.0)?);
     let mut body = PlasticBody::new(volume()?, law);
     let mut pressure = Hertz { radius: 0.25 * side as f64, peak: 2.5, grid };
     let (mut seconds, mut products) = (0.0, 0);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use asperity_base::grid::CellValues;
 use asperity_base::{Error, Field, Grid, Result};
 use asperity_contact::adhesion::Adhesion;
-use asperity_contact::film::{FILM, Film, FilmLaw, FilmStress, Films};
+use asperity_contact::film::{FILM, Film, FilmLaw, Films};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
     Changes, ContactCells, Law, Output, Pair, Slide, SlidingContact, SlidingOutcome, SlidingState,
@@ -23,7 +23,7 @@ use asperity_contact::viscoelastic::{Relaxation, RelaxationTerm};
 use asperity_contact::wear::{WEAR, Wear, WearCoefficient};
 use asperity_surface::{Amplitude, Form, SelfAffine, Topography};
 
-use crate::support::{archard, difference, largest, rough_gap, self_affine, steel};
+use crate::support::{archard, difference, largest, rough_gap, self_affine, steel, zddp};
 
 const PITCH: f64 = 1e-6;
 const METHODS: [Method; 3] = [Method::Direct, Method::PolonskyKeer, Method::ActiveSet];
@@ -314,16 +314,7 @@ fn coulomb() -> Friction {
 }
 
 fn growing() -> Film {
-    let law = FilmLaw::Arrhenius {
-        rate: 20e-9,
-        at_temperature: 373.15,
-        at_stress: 1e9,
-        activation_energy: 0.8 * 1.602_176_634e-19,
-        activation_volume: 3.8e-30,
-        stress: FilmStress::Pressure,
-        removal: 1e-10,
-    };
-    Film::new(law, 60e-9, Some(1.2e9)).unwrap()
+    Film::new(zddp(20e-9, 1e-10), 60e-9, Some(1.2e9)).unwrap()
 }
 
 /// A contact with yielding, wear proportional to the frictional energy, film growth and heating.

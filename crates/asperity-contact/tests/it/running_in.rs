@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use asperity_base::{Field, Grid};
-use asperity_contact::film::{FILM, Film, FilmLaw, FilmStress, Films};
+use asperity_contact::film::{FILM, Film, FilmLaw, Films};
 use asperity_contact::motion::{
     Acceleration, Changes, ContactCells, FLASH, Law, LoadControl, Motion, Pair, PassRecord, Path, Simulation,
     Strategy,
@@ -13,7 +13,7 @@ use asperity_contact::solver::{Control, Coupling, Friction, Params};
 use asperity_contact::temperature::Thermal;
 use asperity_surface::{Amplitude, Form, Topography};
 
-use crate::support::{Kept, archard, largest, self_affine, steel};
+use crate::support::{Kept, archard, largest, self_affine, steel, zddp};
 
 const PITCH: f64 = 1e-6;
 const SLIDE: Strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: 0.5 };
@@ -110,17 +110,8 @@ fn the_volume_is_archards_and_the_ledger_balances() {
     }
 }
 
-fn zddp() -> Film {
-    let law = FilmLaw::Arrhenius {
-        rate: 2e-6,
-        at_temperature: 373.15,
-        at_stress: 1e9,
-        activation_energy: 0.8 * 1.602_176_634e-19,
-        activation_volume: 3.8e-30,
-        stress: FilmStress::Pressure,
-        removal: 0.0,
-    };
-    Film::new(law, 10e-9, None).unwrap()
+fn growing() -> Film {
+    Film::new(zddp(2e-6, 0.0), 10e-9, None).unwrap()
 }
 
 /// Flat bodies: pressure and film are uniform.
@@ -335,7 +326,7 @@ fn heated(speed: f64, passes: usize, every: usize) -> Kept {
     let motion =
         Motion::new(strategy, Control::Load(0.05)).with_passes(passes).with_stride(4).with_friction(friction);
     let pair = rough(1.5e9, 16);
-    let films = Films::new([Some(zddp()), None], &pair).unwrap();
+    let films = Films::new([Some(growing()), None], &pair).unwrap();
     let steel = Thermal::new(46.0, 460.0, 7850.0).unwrap();
     let changes = Changes::by(films).with_bulk([373.15; 2]);
     let changes = if every > 0 { changes.with_heat([steel; 2], every) } else { changes };

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use super::*;
 use crate::grid::Grid;
 use crate::material::Material;
-use crate::operator::{Boundary, PeriodicFft};
+use crate::operator::{Boundary, Operators, PeriodicFft};
 use crate::plasticity::{Hardening, J2, Layers, Volume};
 use crate::solver::{Friction, Frictionless, HardWall, StickSlip, solve_normal};
 
@@ -53,6 +53,14 @@ fn facing(operator: PeriodicFft, initial_gap: Field, first: [[usize; 2]; 2]) -> 
         first.map(|first| Placement::new([initial_gap.nrows(), initial_gap.ncols()], first, 0.0));
     let solver = Box::new(Frictionless::new(Box::new(operator), Arc::new(HardWall)));
     RelativePosition { solver, initial_gap, bounds: Bounds::ELASTIC, placements }
+}
+
+/// The sphere with friction between the bodies.
+fn rubbing(operators: &Operators, n: usize) -> RelativePosition {
+    let operator = operators.coupled_on([n, n]);
+    let solver = Box::new(StickSlip::new(operator, Arc::new(HardWall), Friction::coulomb(0.3).unwrap()));
+    let placements = [Placement::flush([n, n]); 2];
+    RelativePosition { solver, initial_gap: gap(n), bounds: Bounds::ELASTIC, placements }
 }
 
 fn sphere(n: usize, layers: usize) -> PlasticContact {
@@ -330,30 +338,25 @@ fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
 #[test]
 fn the_work_of_pressure_and_friction_is_stored_and_spent() {
     use crate::kernel::response;
-    use crate::operator::Operators;
 
     for boundary in [Boundary::PERIODIC, Boundary::FREE] {
         let n = 20;
         let grid = Grid::new([n, n], [1.0 / n as f64; 2]).unwrap();
         let [lower, upper] = [steel(), Material::elastic(2.0, 0.2).unwrap()];
         let operators = Operators::new(grid, response(&lower, &upper).unwrap(), boundary);
-        let friction = Friction::coulomb(0.3).unwrap();
         let of = |material: &Material, yields: f64| {
             let layers = Layers::new(0.35, 8, 1.1).unwrap();
             let law = J2::new(Hardening::linear(yields, 0.05).unwrap());
             Some(PlasticBody::new(Volume::new(grid, layers, boundary, material).unwrap(), law))
         };
-        let solver = Box::new(StickSlip::new(operators.coupled_on(grid.shape), Arc::new(HardWall), friction));
-        let facing = RelativePosition {
-            solver,
-            initial_gap: gap(n),
-            bounds: Bounds::ELASTIC,
-            placements: [Placement::flush(grid.shape); 2],
-        };
         let params = Params::default().with_tolerance(1e-9);
         let flow = PlasticParams::new().with_tolerance(1e-6);
-        let mut contact =
-            PlasticContact::new(facing, [of(&lower, YIELD), of(&upper, 1.3 * YIELD)], flow, params);
+        let mut contact = PlasticContact::new(
+            rubbing(&operators, n),
+            [of(&lower, YIELD), of(&upper, 1.3 * YIELD)],
+            flow,
+            params,
+        );
         let zeros = || [grid.zeros(), grid.zeros()];
         let state = |contact: &PlasticContact| {
             let solution = contact.equilibrium().and_then(Equilibrium::frictional);
@@ -397,7 +400,6 @@ fn the_work_of_pressure_and_friction_is_stored_and_spent() {
 #[test]
 fn friction_without_flow_is_that_of_elastic_bodies() {
     use crate::kernel::response;
-    use crate::operator::Operators;
     use crate::solver::solve_frictional;
 
     let n = 20;
@@ -407,15 +409,9 @@ fn friction_without_flow_is_that_of_elastic_bodies() {
     let layers = Layers::new(0.35, 4, 1.0).unwrap();
     let volume = Volume::new(grid, layers, Boundary::FREE, &steel()).unwrap();
     let strong = PlasticBody::new(volume, J2::new(Hardening::perfect(1.0).unwrap()));
-    let solver = Box::new(StickSlip::new(operators.coupled_on(grid.shape), Arc::new(HardWall), friction));
-    let facing = RelativePosition {
-        solver,
-        initial_gap: gap(n),
-        bounds: Bounds::ELASTIC,
-        placements: [Placement::flush(grid.shape); 2],
-    };
     let params = Params::default();
-    let mut contact = PlasticContact::new(facing, [Some(strong), None], PlasticParams::new(), params);
+    let mut contact =
+        PlasticContact::new(rubbing(&operators, n), [Some(strong), None], PlasticParams::new(), params);
     let mut before = None;
     for (load, push) in [(1e-4, 0.0), (2e-4, 3e-5), (2e-4, -2e-5)] {
         let loading =

@@ -3,6 +3,7 @@
 pub(crate) mod cell_by_cell;
 pub(crate) mod dense;
 
+use asperity_contact::film::{FilmLaw, FilmStress};
 use asperity_contact::material::{Compliances, Material};
 use asperity_contact::motion::{
     Contact, LoadControl, Output, Pair, PassRecord, PlasticVolume, Simulation, Step, StepRecord, WarmStart,
@@ -48,6 +49,19 @@ pub(crate) fn rough_gap(grid: &Grid, seed: u64) -> Field {
 pub(crate) fn archard(k: [f64; 2]) -> Wear {
     let coefficient = |k: f64| (k > 0.0).then(|| WearCoefficient::archard(k).unwrap());
     Wear::new(k.map(coefficient), [None, None]).unwrap()
+}
+
+/// Growth of a film of ZDDP, at its `rate` under 1 GPa at 100 °C.
+pub(crate) fn zddp(rate: f64, removal: f64) -> FilmLaw {
+    FilmLaw::Arrhenius {
+        rate,
+        at_temperature: 373.15,
+        at_stress: 1e9,
+        activation_energy: 0.8 * 1.602_176_634e-19,
+        activation_volume: 3.8e-30,
+        stress: FilmStress::Pressure,
+        removal,
+    }
 }
 
 pub(crate) fn largest(field: &Field) -> f64 {
