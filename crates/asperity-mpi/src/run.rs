@@ -25,7 +25,7 @@ use asperity_contact::motion::Pair;
 use asperity_contact::operator::{Boundary, Edge};
 use asperity_contact::solver::{Device, Method};
 use asperity_contact::with::{BodyLaw, Capability, Listed};
-use asperity_contact::{each_capability, each_interface, each_law};
+use asperity_contact::each;
 use asperity_study::SurfaceInput;
 use asperity_study::case::Case;
 use asperity_study::io::fields::FieldFile;
@@ -193,7 +193,7 @@ fn check(case: &Case) -> Result<()> {
     let bodies = [("lower", &case.lower), ("upper", &case.upper)];
     let of_bodies = bodies.into_iter().flat_map(|(name, body)| {
         let mut tables = vec![("plasticity", body.plasticity.is_some())];
-        each_law!(L => tables.push((L::NAME, L::of(&body.laws).is_some())));
+        each!(law L => tables.push((L::NAME, L::of(&body.laws).is_some())));
         tables.into_iter().map(move |(table, given)| (format!("{name}.{table}"), given))
     });
     let tables = [
@@ -212,8 +212,8 @@ fn check(case: &Case) -> Result<()> {
     ];
     let tables = tables.map(|(table, given)| (table.to_owned(), given));
     let mut asked = Vec::new();
-    each_interface!(I => asked.push((I::NAME.to_owned(), I::of(&case.interface).is_some())));
-    each_capability!(C => asked.push((C::NAME.to_owned(), C::of(&case.with).is_some())));
+    each!(interface I => asked.push((I::NAME.to_owned(), I::of(&case.interface).is_some())));
+    each!(capability C => asked.push((C::NAME.to_owned(), C::of(&case.with).is_some())));
     match tables.into_iter().chain(asked).chain(of_bodies).find(|(_, given)| *given) {
         None => Ok(()),
         Some((key, _)) => Err(case.error_at(

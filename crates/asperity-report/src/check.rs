@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use asperity_base::Choice;
 use asperity_base::units::{self, Dimension, bytes};
+use asperity_contact::each;
 use asperity_contact::motion::{LoadControl, OffsetY, Path, PlasticUpdate, Point, Stage};
 use asperity_contact::solver::{Control, Creep, Friction, Rolling, Tangential};
 use asperity_contact::with::{BodyLaw, Capability, Listed, ordinal};
-use asperity_contact::{each_capability, each_law};
 use asperity_study::case::{Body, Boundary, CounterBody, Course, Mount, Side};
 use asperity_study::{Bodies, Case, Demand, Estimate, MountedSurface, Plan};
 
@@ -37,7 +37,7 @@ pub fn rows(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) 
     rows.extend(laws(case, demand));
     rows.extend(stress);
     let surroundings = case.surroundings();
-    each_capability!(C => rows.extend(C::of(&case.with).map(|asked| (C::VERB, asked.describe(&surroundings)))));
+    each!(capability C => rows.extend(C::of(&case.with).map(|asked| (C::VERB, asked.describe(&surroundings)))));
     rows
 }
 
@@ -324,7 +324,7 @@ fn laws(case: &Case, demand: &Demand) -> Vec<(&'static str, String)> {
         }
     };
     let mut rows = Vec::new();
-    each_law!(L => rows.push((L::NAME, of_bodies(&|body| L::of(&body.laws).map(L::describe)))));
+    each!(law L => rows.push((L::NAME, of_bodies(&|body| L::of(&body.laws).map(L::describe)))));
     let heat = case.temperature.map(|spec| {
         let [lower, upper] = spec.bulk.map(|kelvin| units::format(kelvin, Dimension::Temperature));
         let bulk = if lower == upper { lower } else { format!("{lower} (lower) and {upper} (upper)") };

@@ -6,7 +6,7 @@ use super::closed_form::ClosedFormRecord;
 use super::subsurface::SubsurfaceRecord;
 use super::summary::{CONVERGED, RunningIn};
 use asperity_base::units::Dimension;
-use asperity_contact::each_capability;
+use asperity_contact::each;
 use asperity_contact::motion::{
     Column, CreepRecord, DragRecord, ENDINGS, FrettingRecord, HeatRecord, IncrementRecord, LawsInCycles,
     LawsInPass, LawsInUpdate, PassDragRecord, PassPlasticRecord, PassRecord, PlasticRecord,
@@ -50,7 +50,7 @@ pub fn records() -> &'static [(&'static str, &'static [Column])] {
             ("Table", &OF_A_STUDY),
         ];
         records.extend(InterfaceNumbers::GROUPS);
-        each_capability!(C => records.extend_from_slice(<C as Capability>::Row::GROUPS));
+        each!(capability C => records.extend_from_slice(<C as Capability>::Row::GROUPS));
         records
     });
     &RECORDS
@@ -72,7 +72,7 @@ const OF_A_STUDY: [Column; 4] = [CASE, WARNINGS, STATE, MESSAGE];
 fn prefixes() -> Vec<(&'static str, &'static [Column])> {
     let mut prefixes =
         vec![("sliding_", UpdateRecord::COLUMNS), ("subsurface_", SubsurfaceRecord::OWN_COLUMNS)];
-    each_capability!(C => prefixes.extend(C::PREFIXES.iter().map(|prefix| (*prefix, <C as Capability>::Row::COLUMNS))));
+    each!(capability C => prefixes.extend(C::PREFIXES.iter().map(|prefix| (*prefix, <C as Capability>::Row::COLUMNS))));
     prefixes
 }
 

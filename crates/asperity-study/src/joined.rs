@@ -16,7 +16,7 @@ use crate::summary::{Outcome, Summary};
 use crate::tables::Row;
 use asperity_base::error::Result;
 use asperity_base::record::{OverMotion, Record};
-use asperity_contact::each_capability;
+use asperity_contact::each;
 use asperity_contact::motion::{Column, PassRecord};
 use asperity_contact::with::{Capability, Observations, Reported, Row as _};
 
@@ -108,7 +108,7 @@ fn of_passes(
     mut found: Observations,
     stresses: &[SubsurfaceRecord],
 ) -> Vec<Vec<Cell>> {
-    each_capability!(C => {
+    each!(capability C => {
         let of_passes = C::rows(&found).chunk_by(|one, other| one.pass() == other.pass());
         let means = of_passes.flat_map(C::summary).collect();
         C::add(&mut found, means);
@@ -194,7 +194,7 @@ pub(super) fn add_found(
     found: &Observations,
     place: impl Fn(Option<usize>, Option<usize>) -> Option<usize>,
 ) {
-    each_capability!(C => for found in C::rows(found) {
+    each!(capability C => for found in C::rows(found) {
         let cells = cells("", found, <<C as Capability>::Row as Record>::COLUMNS);
         let step = cells.iter().find(|cell| cell.name == "step").and_then(|cell| cell.value.as_u64());
         if let Some(place) = place(found.pass(), step.map(|step| step as usize)) {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use crate::case::Side;
 use asperity_base::choice::Choice;
 use asperity_base::record::Record;
-use asperity_contact::each_law;
+use asperity_contact::each;
 use asperity_contact::motion::{Column, Presence};
 use asperity_contact::with::BodyLaw;
 
@@ -60,7 +60,7 @@ impl Limit {
     /// Returns the limit for this word, if there is one.
     pub fn of_word(word: &str) -> Option<Self> {
         let mut limits = Self::OF_CONTACTS.to_vec();
-        each_law!(L => limits.push(Self::Law(L::NAME)));
+        each!(law L => limits.push(Self::Law(L::NAME)));
         limits.into_iter().find(|limit| limit.word() == word)
     }
 }

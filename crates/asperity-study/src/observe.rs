@@ -16,7 +16,7 @@ use crate::results::{Results, Writer, is_nth};
 use crate::tables::{self, GrowingTable};
 use asperity_base::error::{Error, Result};
 use asperity_base::math::parallel;
-use asperity_contact::each_capability;
+use asperity_contact::each;
 use asperity_contact::motion::{
     CycleReport, ObservedContact, Output, Pair, Position, Step, StepCell, StepRow,
 };
@@ -240,7 +240,7 @@ impl Observers {
     ) -> Result<Self> {
         let given = Given { pair, surroundings: case.surroundings(), params: params(case) };
         let mut each: Vec<Box<dyn Look + Send + Sync>> = Vec::new();
-        each_capability!(C => if let Some(asked) = C::of(&case.with) {
+        each!(capability C => if let Some(asked) = C::of(&case.with) {
             let observed = Observed::in_memory(asked, &given)?;
             each.push(Box::new(match writer {
                 Some(writer) => {
@@ -332,7 +332,7 @@ impl Output for Observers {
 pub(super) fn doubts(case: &Case, found: &Observations) -> Vec<String> {
     let surroundings = case.surroundings();
     let mut doubts = Vec::new();
-    each_capability!(C => if let Some(asked) = C::of(&case.with) {
+    each!(capability C => if let Some(asked) = C::of(&case.with) {
         doubts.extend(asked.doubts(C::rows(found), &surroundings));
     });
     doubts
@@ -341,6 +341,6 @@ pub(super) fn doubts(case: &Case, found: &Observations) -> Vec<String> {
 /// Returns the rows of a summary.
 pub(super) fn summary(found: &Observations) -> Observations {
     let mut summary = Observations::default();
-    each_capability!(C => C::add(&mut summary, C::summary(C::rows(found))));
+    each!(capability C => C::add(&mut summary, C::summary(C::rows(found))));
     summary
 }

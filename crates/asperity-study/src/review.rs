@@ -6,7 +6,7 @@ use super::case::Case;
 use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, cut_off, spot, too_few_cells};
 use asperity_base::grid::Field;
 use asperity_base::units::{self, Dimension, Joule, Metre, SquareMetre};
-use asperity_contact::each_law;
+use asperity_contact::each;
 use asperity_contact::motion::{
     IncrementRecord, Interior, LoadedContact, Pair, Paraboloid, PassPlasticRecord, PassRecord, PlasticVolume,
     ShearRecord, StaticRecord, StepRecord, SweepRecord,
@@ -298,7 +298,7 @@ pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]
     let largest = passes.iter().map(|pass| pass.largest_spot_cells).max().unwrap_or(0);
     let flows = at_the_rim(case, shapes, passes, "plastic", "the plastic volume");
     let mut removed = Vec::new();
-    each_law!(L => if L::CELL.is_inside {
+    each!(law L => if L::CELL.is_inside {
         removed.extend(at_the_rim(case, shapes, passes, L::NAME, &format!("the {}", L::CELL.head)));
     });
     let all =

@@ -101,11 +101,11 @@
 //! Each formula names its own source.
 
 pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
+pub use asperity_contact::each;
 pub use asperity_contact::{
     adhesion, conductance, fatigue, film, flow, kernel, lubrication, material, motion, operator, plasticity,
     reference, solver, stress, subsurface, temperature, verification, viscoelastic, wear, with,
 };
-pub use asperity_contact::{each_capability, each_interface, each_law, each_property};
 #[cfg(feature = "study")]
 pub use asperity_study as study;
 #[cfg(feature = "study")]

@@ -7,7 +7,7 @@ use std::path::Path;
 use asperity::study::case::schema::{Fallback, Key, Section};
 use asperity::study::{Case, keys};
 use asperity::with::{BodyLaw, Capability};
-use asperity::{each_capability, each_law, io};
+use asperity::{each, io};
 
 use super::draft::{Draft, DraftBody};
 use super::name;
@@ -39,8 +39,8 @@ fn with_more(text: &str) -> String {
     };
     add("friction", "friction of the bodies");
     add("output", "keep the fields of every 4th position, point or increment");
-    each_capability!(C => add(C::NAME, C::MEANING));
-    each_law!(L => add(&format!("lower.{}", L::NAME), L::MEANING));
+    each!(capability C => add(C::NAME, C::MEANING));
+    each!(law L => add(&format!("lower.{}", L::NAME), L::MEANING));
     let head = "# Remove the leading \"# \" of a line that you need; docs/input.md explains each key.\n";
     let rest = rest.replacen(topography, &format!("{of_body}{topography}"), 1);
     format!("{title}\n\n{head}{of_case}{rest}")

@@ -1,5 +1,6 @@
 //! Summary of a contact at the end of a run: a line for each number.
 
+use asperity::each;
 use asperity::motion::{PassRecord, PlasticRecord, StaticRecord, UpdateRecord};
 use asperity::study::{Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary, dimension_of_column};
 use asperity::units::{CELSIUS, Dimension, format, format_number};
@@ -8,7 +9,6 @@ use asperity::with::views::{Answer, Line};
 use asperity::with::{
     BodyLaw, BodyLaws, Capability, Listed, Observations, Reported, answering, interface_lines,
 };
-use asperity::{each_capability, each_law};
 
 use super::rows::planes;
 use crate::maps::line;
@@ -42,7 +42,7 @@ pub fn text(case: &Case, summary: &Summary, found: &Observations, updates: &[Upd
 /// a single one.
 fn answers(case: &Case, found: &Observations, is_sweep: bool) -> String {
     let mut text = String::new();
-    each_capability!(C => if let Some(asked) = C::of(&case.with) {
+    each!(capability C => if let Some(asked) = C::of(&case.with) {
         let rows = answering::<C>(C::rows(found), is_sweep);
         let is_alone = C::summary(&rows).len() == rows.len();
         if is_alone {
@@ -206,7 +206,7 @@ fn static_table(case: &Case, record: &StaticRecord) -> String {
         };
         rows.push(("cycles", fretting.cycles.to_string()));
         let has = |law: fn(&BodyLaws) -> bool| law(&case.lower.laws) || law(&case.upper.laws);
-        each_law!(L => if has(|laws| L::of(laws).is_some()) {
+        each!(law L => if has(|laws| L::of(laws).is_some()) {
             rows.extend(L::OF_CYCLES.iter().filter_map(|shown| {
                 let dimension = dimension_of_column(shown.column)?;
                 Some((shown.name, both((shown.values)(fretting), dimension)))

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use asperity::each;
 use asperity::motion::{PassRecord, StepCell, SweepRecord};
 use asperity::study::Results;
 use asperity::study::case::{Case, Source};
 use asperity::with::views::{PassCell, RowCell};
 use asperity::with::{BodyLaw, Capability, Listed, Row, interface_cell, interface_cells};
-use asperity::{each_capability, each_law};
 
 use super::columns::{Cell, Columns};
 
@@ -40,11 +40,11 @@ impl Rows {
         let bodies = [&case.lower, &case.upper];
         let motion = case.motion.as_ref();
         let mut laws = Vec::new();
-        each_law!(L => if bodies.iter().any(|body| L::of(&body.laws).is_some()) {
+        each!(law L => if bodies.iter().any(|body| L::of(&body.laws).is_some()) {
             laws.push((L::CELL, 0.0));
         });
         let mut found = Vec::new();
-        each_capability!(C => found.extend(C::of(&case.with).into_iter().flat_map(|asked| asked.cells(&[]))));
+        each!(capability C => found.extend(C::of(&case.with).into_iter().flat_map(|asked| asked.cells(&[]))));
         let has_ends = case.contact.boundary != asperity::operator::Boundary::PERIODIC;
         Self {
             columns: motion.map_or_else(Columns::default, |motion| Columns::counting_to(motion.passes)),
@@ -128,7 +128,7 @@ impl Rows {
 
     /// Continues the table after the passes of a `case` that are in its results.
     pub(super) fn continued(mut self, case: &Case, results: &Results) -> Self {
-        each_capability!(C => if let Some(asked) = C::of(&case.with) {
+        each!(capability C => if let Some(asked) = C::of(&case.with) {
             let rows = results.rows::<C>().unwrap_or_default();
             for rows in rows.chunk_by(|one, next| one.pass() == next.pass()) {
                 let cells = self.earlier.entry(rows[0].pass().unwrap_or_default()).or_default();

@@ -4,7 +4,7 @@
 //! law; the columns of its rows; its rules; the reasons to doubt its results; its numbers, curves and maps.
 //! Everything else is generic: the reader of case files, the files of a run and their resuming, the rows of
 //! the terminal, the figures, the page, the table of a study. It walks the one list of capabilities in this
-//! file, with [`each_capability!`](crate::each_capability).
+//! file, with [`each!`](crate::each).
 //!
 //! | module | table of the case | computes |
 //! |---|---|---|
@@ -12,8 +12,7 @@
 //! | [`conductance`] | `[conductance]` | heat or current through a contact |
 //! | [`fatigue`] | `[fatigue]` | fatigue below bodies under loads that repeat |
 //!
-//! A [`BodyLaw`] is a folder, too: what contacts do to a body. [`each_law!`](crate::each_law) walks their
-//! list.
+//! A [`BodyLaw`] is a folder, too: what contacts do to a body.
 //!
 //! | module | tables of the case | changes |
 //! |---|---|---|
@@ -21,15 +20,13 @@
 //! | [`film`] | `[lower.film]`, `[upper.film]` | the thickness of a tribofilm, and with it heights and hardness |
 //!
 //! A [`BodyProperty`] is a table of a body that contacts do not change.
-//! [`each_property!`](crate::each_property) walks their list.
 //!
 //! | module | tables of the case | says |
 //! |---|---|---|
 //! | [`viscoelastic`] | `[lower.viscoelastic]`, `[upper.viscoelastic]` | how the body relaxes |
 //! | [`fatigue`] | `[lower.fatigue]`, `[upper.fatigue]` | which alternating loads it endures |
 //!
-//! [`Interfaces`] are the tables of what acts between the surfaces.
-//! [`each_interface!`](crate::each_interface) walks their list. Their laws are
+//! [`Interfaces`] are the tables of what acts between the surfaces. Their laws are
 //! [`Interface`](crate::solver::Interface)s of the solver.
 //!
 //! | module | table of the case | is |
@@ -69,20 +66,77 @@ use crate::motion::{
 use crate::operator::Boundary;
 use views::{Answer, Kept, Line, OfPoints};
 
-/// Declares a list of tables, each by its module and its struct: the struct that holds those that are given,
-/// and the macro that walks the list. `$dollar` is the sign `$` of this macro.
-macro_rules! list {
-    (
-        $dollar:tt;
-        $(#[$about:meta])+ $all:ident
-        $(#[$walks:meta])+ $each:ident
-        $($(#[doc = $text:literal])+ $name:ident::$table:ident;)+
-    ) => {
+/// Repeats statements for each table of a list, which has the given name in them: `capability`, `law`,
+/// `property` or `interface`. The lists stand here.
+///
+/// ```
+/// use asperity_contact::each;
+/// use asperity_contact::with::{BodyLaw, Capability};
+///
+/// let mut names = Vec::new();
+/// each!(capability C => names.push(C::NAME));
+/// each!(law L => names.push(L::NAME));
+/// assert_eq!(names, ["flow", "conductance", "fatigue", "wear", "film"]);
+/// ```
+#[macro_export]
+macro_rules! each {
+    (capability $($what:tt)+) => {
+        $crate::each! {
+            [
+                /// A fluid through the gap of each contact.
+                flow::Leakage,
+                /// Heat or current through each contact.
+                conductance::Joint,
+                /// Fatigue below bodies under loads that repeat.
+                fatigue::Fatigue,
+            ]
+            $($what)+
+        }
+    };
+    (law $($what:tt)+) => {
+        $crate::each! {
+            [
+                /// Wear of the body.
+                wear::WearCoefficient,
+                /// Tribofilm on the body.
+                film::Film,
+            ]
+            $($what)+
+        }
+    };
+    (property $($what:tt)+) => {
+        $crate::each! {
+            [
+                /// Relaxation of the body.
+                viscoelastic::Viscoelasticity,
+                /// Limits of the body under alternating loads.
+                fatigue::FatigueLimits,
+            ]
+            $($what)+
+        }
+    };
+    (interface $($what:tt)+) => {
+        $crate::each! {
+            [
+                /// Attraction between the bodies.
+                adhesion::Attraction,
+            ]
+            $($what)+
+        }
+    };
+    ([$($(#[$text:meta])+ $name:ident::$table:ident,)+] $of:ident => $statements:expr) => {{
+        $({
+            type $of = $crate::with::$name::$table;
+            $statements;
+        })+
+    }};
+    // The struct that holds those that are given.
+    ([$($(#[$text:meta])+ $name:ident::$table:ident,)+] $(#[$about:meta])+ struct $all:ident) => {
         $(#[$about])+
         #[derive(Debug, Clone, Default, PartialEq, Serialize)]
         #[non_exhaustive]
         pub struct $all {
-            $($(#[doc = $text])+ #[serde(skip_serializing_if = "Option::is_none")] pub $name: Option<$name::$table>,)+
+            $($(#[$text])+ #[serde(skip_serializing_if = "Option::is_none")] pub $name: Option<$name::$table>,)+
         }
 
         impl $all {
@@ -101,128 +155,47 @@ macro_rules! list {
                 all.$name = Some(self);
             }
         })+
-
-        $(#[$walks])+
-        #[macro_export]
-        macro_rules! $each {
-            ($dollar of:ident => $dollar statements:expr) => {{
-                $({
-                    type $dollar of = $dollar crate::with::$name::$table;
-                    $dollar statements;
-                })+
-            }};
-        }
     };
-}
-
-/// Declares the capabilities.
-macro_rules! capabilities {
-    ($dollar:tt; $($(#[doc = $text:literal])+ $name:ident::$table:ident;)+) => {
-        list! { $dollar;
-            /// The capabilities that a case asks for, each by its table.
-            Capabilities
-            /// Repeats statements for each capability of the list, whose table has the given name in them.
-            ///
-            /// ```
-            /// use asperity_contact::each_capability;
-            /// use asperity_contact::with::Capability;
-            ///
-            /// let mut names = Vec::new();
-            /// each_capability!(C => names.push(C::NAME));
-            /// assert_eq!(names, ["flow", "conductance", "fatigue"]);
-            /// ```
-            each_capability
-            $($(#[doc = $text])+ $name::$table;)+
-        }
-
-        /// The rows of the capabilities in a summary; empty for those that a case did not ask for.
+    // The struct that holds the rows of all capabilities.
+    ([$($(#[$text:meta])+ $name:ident::$table:ident,)+] $(#[$about:meta])+ rows $all:ident) => {
+        $(#[$about])+
         #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
         #[non_exhaustive]
-        pub struct Observations {
+        pub struct $all {
             $(
-                $(#[doc = $text])+
+                $(#[$text])+
                 #[serde(default, skip_serializing_if = "Vec::is_empty")]
                 pub $name: Vec<<$name::$table as Capability>::Row>,
             )+
         }
 
         $(impl Reported for $name::$table {
-            fn rows(all: &Observations) -> &[Self::Row] {
+            fn rows(all: &$all) -> &[Self::Row] {
                 &all.$name
             }
 
-            fn add(all: &mut Observations, rows: Vec<Self::Row>) {
+            fn add(all: &mut $all, rows: Vec<Self::Row>) {
                 all.$name = rows;
             }
         })+
     };
 }
 
-capabilities! { $;
-    /// A fluid through the gap of each contact.
-    flow::Leakage;
-    /// Heat or current through each contact.
-    conductance::Joint;
-    /// Fatigue below bodies under loads that repeat.
-    fatigue::Fatigue;
-}
-
-list! { $;
+each!(capability
+    /// The capabilities that a case asks for, each by its table.
+    struct Capabilities);
+each!(capability
+    /// The rows of the capabilities in a summary; empty for those that a case did not ask for.
+    rows Observations);
+each!(law
     /// The laws of a body, each by its table.
-    BodyLaws
-    /// Repeats statements for each law of the list, whose table has the given name in them.
-    ///
-    /// ```
-    /// use asperity_contact::each_law;
-    /// use asperity_contact::with::BodyLaw;
-    ///
-    /// let mut names = Vec::new();
-    /// each_law!(L => names.push(L::NAME));
-    /// assert_eq!(names, ["wear", "film"]);
-    /// ```
-    each_law
-    /// Wear of the body.
-    wear::WearCoefficient;
-    /// Tribofilm on the body.
-    film::Film;
-}
-
-list! { $;
+    struct BodyLaws);
+each!(property
     /// The properties of a body that contacts do not change, each by its table.
-    BodyProperties
-    /// Repeats statements for each property of the list, whose table has the given name in them.
-    ///
-    /// ```
-    /// use asperity_contact::each_property;
-    /// use asperity_contact::with::BodyProperty;
-    ///
-    /// let mut names = Vec::new();
-    /// each_property!(P => names.push(P::NAME));
-    /// assert_eq!(names, ["viscoelastic", "fatigue"]);
-    /// ```
-    each_property
-    /// Relaxation of the body.
-    viscoelastic::Viscoelasticity;
-    /// Limits of the body under alternating loads.
-    fatigue::FatigueLimits;
-}
-
-list! { $;
+    struct BodyProperties);
+each!(interface
     /// The interface of the bodies, by its table; hard walls if none is given.
-    Interfaces
-    /// Repeats statements for each interface of the list, whose table has the given name in them.
-    ///
-    /// ```
-    /// use asperity_contact::each_interface;
-    ///
-    /// let mut names = Vec::new();
-    /// each_interface!(I => names.push(I::NAME));
-    /// assert_eq!(names, ["adhesion"]);
-    /// ```
-    each_interface
-    /// Attraction between the bodies.
-    adhesion::Attraction;
-}
+    struct Interfaces);
 
 /// A table in the list of those that a case or a body may have.
 pub trait Listed<All>: Sized {
@@ -236,7 +209,7 @@ pub trait Listed<All>: Sized {
 /// Whether a capability whose table is given uses a constant of the bodies without the others of its group.
 pub fn uses(constant: &str, is_given: impl Fn(&str) -> bool) -> bool {
     let mut uses = false;
-    each_capability!(C => uses |= is_given(C::NAME) && C::CONSTANTS.contains(&constant));
+    each!(capability C => uses |= is_given(C::NAME) && C::CONSTANTS.contains(&constant));
     uses
 }
 
@@ -246,14 +219,14 @@ pub fn uses(constant: &str, is_given: impl Fn(&str) -> bool) -> bool {
 /// The reason why one does not apply to a body.
 pub fn laws(bodies: [&BodyLaws; 2], pair: &Pair) -> Result<Vec<Box<dyn Law>>> {
     let mut laws = Vec::new();
-    each_law!(L => laws.extend(L::law(bodies, pair)?));
+    each!(law L => laws.extend(L::law(bodies, pair)?));
     Ok(laws)
 }
 
 /// Returns the fields that the laws keep of each body.
 pub fn kept() -> Vec<Kept> {
     let mut kept = Vec::new();
-    each_law!(L => kept.extend(L::KEPT));
+    each!(law L => kept.extend(L::KEPT));
     kept
 }
 
@@ -261,7 +234,7 @@ pub fn kept() -> Vec<Kept> {
 pub fn after_passes(passes: &[PassRecord]) -> Vec<Answer> {
     let mut answers = Vec::new();
     answers.extend(viscoelastic::in_passes(passes));
-    each_law!(L => answers.extend(L::after_passes(passes)));
+    each!(law L => answers.extend(L::after_passes(passes)));
     answers
 }
 
@@ -289,7 +262,7 @@ pub fn answering_rank(row: StepRow<'_>) -> Option<f64> {
 /// Returns what cycles of slip have done to the bodies.
 pub fn after_cycles(cycles: &FrettingRecord) -> Vec<Answer> {
     let mut answers = Vec::new();
-    each_law!(L => answers.extend(L::after_cycles(cycles)));
+    each!(law L => answers.extend(L::after_cycles(cycles)));
     answers
 }
 
@@ -297,7 +270,7 @@ pub fn after_cycles(cycles: &FrettingRecord) -> Vec<Answer> {
 /// slides.
 pub fn after_sliding(updates: &[UpdateRecord]) -> Vec<Answer> {
     let mut answers = Vec::new();
-    each_law!(L => answers.extend(L::after_sliding(updates)));
+    each!(law L => answers.extend(L::after_sliding(updates)));
     answers
 }
 
@@ -321,7 +294,7 @@ pub fn answering_columns() -> Vec<(String, String)> {
         .chain(of_points().iter().map(|curve| (curve.column, curve.label)))
         .map(|(column, name)| (column.to_owned(), name.to_owned()))
         .collect();
-    each_law!(L => {
+    each!(law L => {
         let passes = L::OF_PASSES.iter().map(|curve| (curve.column, curve.name));
         let updates = L::OF_UPDATES.iter().map(|curve| (curve.column, curve.name));
         let cycles = L::OF_CYCLES.iter().map(|curve| (curve.column, curve.name));

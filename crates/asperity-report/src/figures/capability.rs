@@ -2,7 +2,7 @@
 
 use asperity_base::units::{Dimension, format};
 use asperity_base::{Field, Grid};
-use asperity_contact::each_capability;
+use asperity_contact::each;
 use asperity_contact::with::views::{
     Curve, Map as MapOf, OverPressure, Scale, Series as SeriesOf, closing, exponent, over_pressure,
 };
@@ -26,7 +26,7 @@ const LOADED: f64 = 0.01;
 /// `done` are the passes of a motion that are done before the first and after each of the computed ones.
 pub(super) fn draw(results: &Results, done: &[usize], of: &str, of_all: &str, sheet: &mut Sheet) -> Result {
     let case = results.case()?;
-    each_capability!(C => if C::of(&case.with).is_some() {
+    each!(capability C => if C::of(&case.with).is_some() {
         let rows = results.rows::<C>()?;
         curves::<C>(&rows, done).into_iter().try_for_each(|curves| sheet.add_curves(curves, of_all))?;
         let fields = match (load_cycle::<C>(&rows), rows.last()) {

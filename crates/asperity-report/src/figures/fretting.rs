@@ -1,6 +1,6 @@
 //! The figure of bodies that change where they slip, over the cycles of a loading.
 
-use asperity_contact::each_law;
+use asperity_contact::each;
 use asperity_contact::motion::{FrettingRecord, IncrementRecord};
 use asperity_contact::with::BodyLaw;
 
@@ -55,7 +55,7 @@ pub(crate) fn curves(increments: &[IncrementRecord]) -> Option<Curves> {
     let loss = |cycle: &Cycle<'_>| cycle.increments.iter().map(|increment| increment.dissipation).sum();
     let mut shown = Vec::new();
     let bodies = cycles.iter().map(|cycle| &cycle.bodies);
-    each_law!(L => shown.extend(
+    each!(law L => shown.extend(
         L::OF_CYCLES.iter().map(|shown| of_law(bodies.clone(), |cycle| Some(cycle.cycles as f64), shown))
     ));
     shown.extend([

@@ -1,7 +1,7 @@
 //! The figure of bodies that run in: what becomes of them over the distance that they slide.
 
 use asperity_base::units::CELSIUS;
-use asperity_contact::each_law;
+use asperity_contact::each;
 use asperity_contact::motion::PassRecord;
 use asperity_contact::with::BodyLaw;
 
@@ -33,7 +33,7 @@ fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
     let alone = |name: &str, curve| vec![Series::new(name, curve, Mark::Line)];
     let temperature = over(&|p| p.running.map_or(f64::NAN, |r| r.max_flash_temperature - CELSIUS));
     let mut shown: Vec<(Axis, Vec<Series>)> = Vec::new();
-    each_law!(L => shown.extend(L::OF_PASSES.iter().map(|shown| {
+    each!(law L => shown.extend(L::OF_PASSES.iter().map(|shown| {
         let (axis, series) = of_law(passes.iter(), |p| p.running.map(|running| running.distance), shown);
         (Axis { log: log && shown.adds_up, ..axis }, series)
     })));

@@ -1,7 +1,7 @@
 //! Figures of a contact that slides in place: its course, and what it leaves on the bodies.
 
 use asperity_base::units::CELSIUS;
-use asperity_contact::each_law;
+use asperity_contact::each;
 use asperity_contact::motion::UpdateRecord;
 use asperity_contact::with::views::KeptMap;
 use asperity_contact::with::{self, BodyLaw};
@@ -64,7 +64,7 @@ fn charts(updates: &[UpdateRecord]) -> Charts {
         (Axis::of("contact area", "contact_area"), alone(|u| u.contact_area)),
         (Axis::of("largest pressure", "max_pressure"), alone(|u| u.max_pressure)),
     ];
-    each_law!(L => shown.extend(
+    each!(law L => shown.extend(
         L::OF_UPDATES.iter().map(|shown| of_law(updates.iter(), |update| Some(update.distance), shown))
     ));
     shown.push((

@@ -1,7 +1,7 @@
 //! What the user asked for, before the contact itself: the answers of capabilities, of the interface and of
 //! the laws of the bodies.
 
-use asperity_contact::each_capability;
+use asperity_contact::each;
 use asperity_contact::with::views::Answer;
 use asperity_contact::with::{self, Capability, Listed, answering};
 use asperity_study::Outcome;
@@ -11,7 +11,7 @@ use super::found::PageData;
 /// The answers, the first of which is that to the question of the case.
 pub(super) fn all(found: &PageData) -> Vec<Answer> {
     let mut answers = Vec::new();
-    each_capability!(C => if let Some(asked) = C::of(&found.case.with) {
+    each!(capability C => if let Some(asked) = C::of(&found.case.with) {
         let rows = found.results.rows::<C>().unwrap_or_default();
         answers.extend(asked.answers(&answering::<C>(&rows, !found.points.is_empty())));
     });

@@ -1,6 +1,6 @@
 //! The sections of the capabilities: the numbers, maps and curves that each declares.
 
-use asperity_contact::each_capability;
+use asperity_contact::each;
 use asperity_contact::with::{Capability, Listed, of_last};
 use asperity_study::io::fields::Fields;
 use serde_json::Value;
@@ -20,7 +20,7 @@ const LEAST: f64 = 1e-6;
 /// The sections of the capabilities that the case asks for, and the data that they show.
 pub(super) fn sections(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Vec<Section> {
     let mut sections = Vec::new();
-    each_capability!(C => if let Some(asked) = C::of(&found.case.with).cloned() {
+    each!(capability C => if let Some(asked) = C::of(&found.case.with).cloned() {
         sections.push((C::NAME, C::TITLE, Some(section(&asked, found, data, charts))));
     });
     sections

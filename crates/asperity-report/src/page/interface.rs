@@ -1,6 +1,6 @@
 //! The interface of the bodies: its numbers, the force–distance curve, the jumps.
 
-use asperity_contact::each_interface;
+use asperity_contact::each;
 use asperity_contact::motion::IncrementRecord;
 use asperity_contact::with::views::Line;
 use asperity_contact::with::{self, Listed, interface_lines};
@@ -20,7 +20,7 @@ const MAX_JUMPS: usize = 12;
 /// The section; without HTML between hard walls.
 pub(super) fn section(found: &PageData, charts: &mut Vec<Value>) -> Section {
     let mut section = ("interface", "Interface", None);
-    each_interface!(I => if I::of(&found.case.interface).is_some() {
+    each!(interface I => if I::of(&found.case.interface).is_some() {
         section = (I::NAME, I::TITLE, html(found, I::NAME, I::LABELS, charts));
     });
     section

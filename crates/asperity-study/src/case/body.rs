@@ -12,13 +12,13 @@ use asperity_base::error::{Error, Result};
 use asperity_base::exists;
 use asperity_base::table::{self, Key, Table as _};
 use asperity_base::units::{Pascal, known_or_inf, or_inf};
+use asperity_contact::each;
 use asperity_contact::material::{Coating, Material, NamedMaterial};
 use asperity_contact::temperature::Thermal;
 use asperity_contact::with::plasticity::Yielding;
 use asperity_contact::with::{
     BodyConstants, BodyLaw as _, BodyLaws, BodyProperties, BodyProperty as _, Listed as _,
 };
-use asperity_contact::{each_law, each_property};
 use asperity_derive::Table;
 use asperity_surface::UNDERSIDE;
 
@@ -203,10 +203,10 @@ impl BodyKeys {
             Hardness::Map(_) => None,
         };
         let (mut properties, mut laws) = (BodyProperties::default(), BodyLaws::default());
-        each_property!(P => if let Some(value) = source.value(P::NAME) {
+        each!(property P => if let Some(value) = source.value(P::NAME) {
             P::read(value.table()?.as_ref())?.in_folder(folder).give(&mut properties);
         });
-        each_law!(L => if let Some(value) = source.value(L::NAME) {
+        each!(law L => if let Some(value) = source.value(L::NAME) {
             let table = value.table()?;
             L::read(table.as_ref())?.on(one_hardness, table.as_ref())?.give(&mut laws);
         });

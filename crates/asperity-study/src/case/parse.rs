@@ -12,8 +12,8 @@ use super::schema::tables::{self, belongs, known_in};
 use super::{Case, StageSpec, TopographySpec};
 use asperity_base::error::Result;
 use asperity_base::table::Table as _;
+use asperity_contact::each;
 use asperity_contact::with::{Capabilities, Capability, Interfaces, Listed, uses};
-use asperity_contact::{each_capability, each_interface};
 
 /// Reads a topography in a separate table `[topography]`; also returns its document.
 pub(super) fn topography_alone(text: &str, folder: &Path) -> Result<(TopographySpec, Document)> {
@@ -63,11 +63,11 @@ fn read(table: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     root.upper.heat_together(&mut upper, &lower, used);
     one_tells_the_other(&lower.topography, &upper.topography, &upper_table)?;
     let mut interface = Interfaces::default();
-    each_interface!(I => if let Some(table) = tables::read::<I>(table, I::NAME)? {
+    each!(interface I => if let Some(table) = tables::read::<I>(table, I::NAME)? {
         table.give(&mut interface);
     });
     let mut with = Capabilities::default();
-    each_capability!(C => if let Some(table) = tables::read::<C>(table, C::NAME)? {
+    each!(capability C => if let Some(table) = tables::read::<C>(table, C::NAME)? {
         table.give(&mut with);
     });
     let mut motion = root.motion.map(|motion| motion.resolved(root.contact.prescribed()));

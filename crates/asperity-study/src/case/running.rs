@@ -3,10 +3,10 @@
 use super::{Body, Case};
 use asperity_base::error::Result;
 use asperity_base::units::PerPascal;
+use asperity_contact::each;
 use asperity_contact::motion::{Acceleration, Changes, Memory, Pair};
 use asperity_contact::solver::Params;
 use asperity_contact::with::{self, BodyLaw, Capability, Given, Listed};
-use asperity_contact::{each_capability, each_law};
 
 impl Case {
     /// Returns the changes of the bodies of a `pair` by their contacts: laws, memories of load cycles, heat and
@@ -37,7 +37,7 @@ impl Case {
     fn memories(&self, pair: &Pair, params: Params) -> Result<Vec<Box<dyn Memory>>> {
         let given = Given { pair, surroundings: self.surroundings(), params };
         let mut memories = Vec::new();
-        each_capability!(C => if let Some(asked) = C::of(&self.with) {
+        each!(capability C => if let Some(asked) = C::of(&self.with) {
             memories.extend(asked.cycle_memory(&given)?);
         });
         Ok(memories)
@@ -46,7 +46,7 @@ impl Case {
     /// Number of fields that capabilities keep with each body.
     pub(crate) fn remembered(&self) -> usize {
         let mut kept = 0;
-        each_capability!(C => kept += C::of(&self.with).map_or(0, Capability::remembered));
+        each!(capability C => kept += C::of(&self.with).map_or(0, Capability::remembered));
         kept
     }
 
@@ -66,7 +66,7 @@ impl Case {
     pub(crate) fn loss_per_pressure(&self, friction: f64) -> PerPascal {
         let mut loss = 0.0;
         for body in [&self.lower, &self.upper] {
-            each_law!(L => loss += L::of(&body.laws).map_or(0.0, |law| law.per_pressure(friction)));
+            each!(law L => loss += L::of(&body.laws).map_or(0.0, |law| law.per_pressure(friction)));
         }
         loss
     }
@@ -76,7 +76,7 @@ impl Body {
     /// Work of its laws on a cell in contact at a position, in the unit of effort.
     pub(crate) fn effort_of_laws(&self) -> f64 {
         let mut effort = 0.0;
-        each_law!(L => effort += L::of(&self.laws).map_or(0.0, |_| L::EFFORT));
+        each!(law L => effort += L::of(&self.laws).map_or(0.0, |_| L::EFFORT));
         effort
     }
 }

@@ -8,7 +8,7 @@ use asperity_base::beside::{Beside, Scale};
 use asperity_base::grid::Grid;
 use asperity_base::table::Kind;
 use asperity_base::units::{self, Dimension, Metre, Newton};
-use asperity_contact::each_law;
+use asperity_contact::each;
 use asperity_contact::motion::Stage;
 use asperity_contact::solver::{Control, Tangential};
 use asperity_contact::with::{BodyLaw, Listed};
@@ -51,7 +51,7 @@ pub(super) fn lost(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<Str
     let length = |value| units::format(value, Dimension::Length);
     let mut warnings = Vec::new();
     for (name, body) in [("lower", &case.lower), ("upper", &case.upper)] {
-        each_law!(L => if let Some(law) = L::of(&body.laws) {
+        each!(law L => if let Some(law) = L::of(&body.laws) {
             let loss = law.per_pressure(friction) * distance;
             let (mean, deepest) = (loss * load / estimate.apparent_area, loss * pressure);
             let told = match (mean > most(), deepest > 0.0 && deepest < NOTHING) {

@@ -9,12 +9,12 @@ use crate::subsurface::Plan;
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
 use asperity_base::units::Second;
+use asperity_contact::each;
 use asperity_contact::material::Compliances;
 use asperity_contact::motion::{LoadControl, PlasticUpdate, Stage, memory_together};
 use asperity_contact::operator::{FreeFft, Operator};
 use asperity_contact::solver::{self, Control, Coupling, InterfaceCost, Method};
 use asperity_contact::with::{BodyProperty, Capability, Listed};
-use asperity_contact::{each_capability, each_property};
 
 /// Cost of a run. Memory in bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,7 +69,7 @@ pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Deman
     let (convolutions, effort) = sizes.solving(threads);
     let mut breaks_out = false;
     for body in [&case.lower, &case.upper] {
-        each_property!(P => breaks_out |= P::of(&body.properties).is_some_and(P::breaks_out));
+        each!(property P => breaks_out |= P::of(&body.properties).is_some_and(P::breaks_out));
     }
     let is_least = breaks_out && case.acceleration.is_some();
     Ok(Demand {
@@ -382,7 +382,7 @@ impl<'a> Sizes<'a> {
             let planes = spec.layers + spec.planes.len();
             effort += self.passes() * STRESS * planes as f64 * work(nx) / together(planes);
         }
-        each_capability!(C => if let Some(asked) = C::of(&case.with) {
+        each!(capability C => if let Some(asked) = C::of(&case.with) {
             let every = asked.every();
             let at_once = self.observed_together(every, C::OF_LOAD_CYCLES);
             effort += asked.effort() * self.observed(&course, every) * work(nx) / together(at_once);
@@ -473,7 +473,7 @@ impl<'a> Sizes<'a> {
     fn memory_of_capabilities(&self, threads: usize) -> f64 {
         let [nx, ny] = self.facing();
         let (mut looked_at, mut largest) = (0, 0.0_f64);
-        each_capability!(C => if let Some(asked) = C::of(&self.case.with) {
+        each!(capability C => if let Some(asked) = C::of(&self.case.with) {
             let positions = self.observed_together(asked.every(), C::OF_LOAD_CYCLES);
             let at_once = threads.clamp(1, positions.max(1)).min(positions) as f64;
             looked_at = looked_at.max(positions);

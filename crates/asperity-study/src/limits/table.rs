@@ -7,7 +7,7 @@ use crate::estimate::STEEP;
 use crate::limit::{BrokenLimit, Limit};
 use asperity_base::choice::Choice;
 use asperity_base::units::{self, Dimension, Metre};
-use asperity_contact::each_law;
+use asperity_contact::each;
 use asperity_contact::motion::Pair;
 use asperity_contact::with::{BodyLaw, ChangedSurfaces};
 use asperity_surface::Topography;
@@ -24,7 +24,7 @@ pub(super) struct Row {
 /// Returns all limits.
 pub(super) fn limits() -> Vec<Row> {
     let mut limits = vec![Row { limit: Limit::Slope, exceeds: slope, says: says_slope }];
-    each_law!(L => limits.push(Row { limit: Limit::Law(L::NAME), exceeds: law::<L>, says: says_law::<L> }));
+    each!(law L => limits.push(Row { limit: Limit::Law(L::NAME), exceeds: law::<L>, says: says_law::<L> }));
     limits.extend(OF_CONTACTS);
     limits
 }

@@ -20,7 +20,7 @@ use crate::results::{NO_LOCKS, Results};
 use crate::summary::{Outcome, RunningIn, Summary};
 use asperity_base::error::{Error, Result};
 use asperity_base::record::OverMotion;
-use asperity_contact::each_capability;
+use asperity_contact::each;
 use asperity_contact::motion::{PassRecord, PlasticRecord, StaticRecord, UpdateRecord};
 use asperity_contact::with::{self, Reported};
 
@@ -310,7 +310,7 @@ fn whole(summary: &Summary) -> Vec<Cell> {
     joined::add_stress(&mut row, summary.subsurface.last());
     // A motion has the mean of each pass, of which the last one counts.
     let mut last = summary.found.clone();
-    each_capability!(C => {
+    each!(capability C => {
         let of_last = with::of_last(C::rows(&last)).cloned().collect();
         C::add(&mut last, of_last);
     });

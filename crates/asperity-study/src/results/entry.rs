@@ -15,10 +15,10 @@ use crate::io::{atomic, fs};
 use crate::limit::LIMITS_TABLE;
 use crate::tables;
 use asperity_base::error::{Error, Result};
+use asperity_contact::each;
 use asperity_contact::motion::{StepRecord, StepRow, SweepRecord};
 use asperity_contact::with::Capability;
 use asperity_contact::with::plasticity::Keep;
-use asperity_contact::{each_capability, each_interface};
 use serde_json::Value;
 
 /// Treatment of existing results.
@@ -173,7 +173,7 @@ fn resumable(results: &Results, case: &Value) -> Result<ExistingResults> {
         if let Some(state) = results.last_state(rows, first, &table)? {
             whole(&results.state_path(state), &identity, None)?;
             let mut has_interface = false;
-            each_interface!(I => has_interface |= case.get(I::NAME).is_some_and(Value::is_object));
+            each!(interface I => has_interface |= case.get(I::NAME).is_some_and(Value::is_object));
             let has_stages =
                 case.get("history").and_then(Value::as_array).is_some_and(|stages| !stages.is_empty());
             if first == 1 && has_interface && has_stages {
@@ -337,7 +337,7 @@ pub(super) fn clear(results: &Results, kept: ExistingResults, keep: Keep) -> Res
             {
                 results.remove(&at(name))?;
             }
-            each_capability!(C => results.remove(&results.observer_table(C::NAME))?);
+            each!(capability C => results.remove(&results.observer_table(C::NAME))?);
             results.remove(&results.observer_table(LIMITS_TABLE))?;
             let folders = [results.fields_folder(), results.figures_folder()];
             for path in folders.into_iter().filter(|path| fs::exists(path)) {
@@ -358,7 +358,7 @@ const AT_REST: [&str; 5] = ["fields.h5", "fields.vti", "subsurface.h5", "subsurf
 fn clear_later(results: &Results, passes: usize, keep: Keep) -> Result<()> {
     let mut names: Vec<_> = (0..=passes).map(|pass| results.fields_path(pass)).collect();
     names.extend((1..=passes).map(|pass| results.subsurface_path(Some(pass))));
-    each_capability!(C => names.extend((1..=passes).map(|pass| results.observer_fields(C::NAME, pass))));
+    each!(capability C => names.extend((1..=passes).map(|pass| results.observer_fields(C::NAME, pass))));
     names.push(results.state_path(passes));
     let first = if keep == Keep::Last { passes } else { 1 };
     names.extend((first..=passes).map(|pass| results.volume_path(Some(pass))));

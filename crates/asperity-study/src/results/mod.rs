@@ -59,7 +59,7 @@ use crate::summary::{Outcome, Summary};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
 use asperity_base::record::Record;
-use asperity_contact::each_capability;
+use asperity_contact::each;
 use asperity_contact::motion::{
     IncrementRecord, LoadingState, Pair, PassRecord, SlidingState, State, StateReader, StepRecord,
     SweepRecord, SweepState, UpdateRecord, WarmStart,
@@ -373,7 +373,7 @@ impl Results {
     /// [`Error::File`].
     pub fn found(&self) -> Result<Observations> {
         let mut found = Observations::default();
-        each_capability!(C => C::add(&mut found, self.rows::<C>()?));
+        each!(capability C => C::add(&mut found, self.rows::<C>()?));
         Ok(found)
     }
 

@@ -18,11 +18,11 @@ use super::cursor::{Entry, Table};
 use super::{Body, Case, FrictionSpec, MotionSpec};
 use asperity_base::error::{Error, Result};
 use asperity_base::table;
+use asperity_contact::each;
 use asperity_contact::motion::Strategy;
 use asperity_contact::with::{
     self, BodyLaw, Capability, Circumstances, Listed, Slip, Surroundings, Timeless,
 };
-use asperity_contact::{each_capability, each_interface, each_law};
 
 /// The description of a rule: two entries of a case file exclude each other, or one requires the other.
 pub type Exclusion = table::Rule<()>;
@@ -56,18 +56,18 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
     tables.check_laws()?;
     tables.check(&OF_THE_REST)?;
     let surroundings = case.surroundings();
-    each_interface!(I => tables.check_given(I::of(&case.interface), I::RULES, &surroundings)?);
-    each_capability!(C => tables.check_given(C::of(&case.with), C::RULES, &surroundings)?);
+    each!(interface I => tables.check_given(I::of(&case.interface), I::RULES, &surroundings)?);
+    each!(capability C => tables.check_given(C::of(&case.with), C::RULES, &surroundings)?);
     Ok(())
 }
 
 /// Returns the rules of a case file, in the order in which a case is checked.
 pub fn rules() -> Vec<Exclusion> {
     let mut exclusions: Vec<_> = OF_THE_CONTACT.into_iter().flatten().map(described).collect();
-    each_law!(L => exclusions.extend(L::RULES.iter().map(described)));
+    each!(law L => exclusions.extend(L::RULES.iter().map(described)));
     exclusions.extend(OF_THE_REST.into_iter().flatten().map(described));
-    each_interface!(I => exclusions.extend(I::RULES.iter().map(described)));
-    each_capability!(C => exclusions.extend(C::RULES.iter().map(described)));
+    each!(interface I => exclusions.extend(I::RULES.iter().map(described)));
+    each!(capability C => exclusions.extend(C::RULES.iter().map(described)));
     exclusions
 }
 
@@ -102,7 +102,7 @@ impl<'a> Tables<'a> {
     fn check_laws(&self) -> Result<()> {
         for (name, body) in [("lower", &self.case.lower), ("upper", &self.case.upper)] {
             let circumstances = self.circumstances(body);
-            each_law!(L => for rule in L::RULES {
+            each!(law L => for rule in L::RULES {
                 let is_broken = L::of(&body.laws).is_some_and(|law| (rule.broken)(law, &circumstances));
                 let at = rule.at.strip_prefix("lower").map_or(rule.at.to_owned(), |key| format!("{name}{key}"));
                 if let Some(entry) = self.at(&at).filter(|_| is_broken) {

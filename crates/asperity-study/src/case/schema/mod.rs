@@ -15,12 +15,12 @@ use super::root::Root;
 use super::{Contact, FrictionSpec, HardnessMap, MotionSpec, StageSpec, SubsurfaceSpec, TopographySpec};
 pub use asperity_base::table::{Bounds, Exists, Fallback, Key, Kind, Section};
 use asperity_base::table::{Part as _, Table as _};
+use asperity_contact::each;
 use asperity_contact::material::Coating;
 use asperity_contact::temperature::Temperature;
 use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
 use asperity_contact::with::viscoelastic::Steady;
 use asperity_contact::with::{BodyLaw, BodyProperty, Capability};
-use asperity_contact::{each_capability, each_interface, each_law, each_property};
 
 /// Returns all keys of a case file, section by section, in the order in which a misplaced key is searched.
 ///
@@ -34,8 +34,8 @@ use asperity_contact::{each_capability, each_interface, each_law, each_property}
 pub fn keys() -> &'static [Section] {
     static KEYS: LazyLock<Vec<Section>> = LazyLock::new(|| {
         let (mut root, mut of_capabilities) = (Root::sections()[0].keys.to_vec(), Vec::new());
-        each_interface!(I => root.push(table(I::NAME, "none", I::MEANING)));
-        each_capability!(C => {
+        each!(interface I => root.push(table(I::NAME, "none", I::MEANING)));
+        each!(capability C => {
             root.push(table(C::NAME, "none", C::MEANING));
             of_capabilities.extend(C::sections());
         });
@@ -50,12 +50,12 @@ fn of_every_case() -> Vec<Section> {
     let mut body = BodyKeys::sections();
     let (mut of_both, mut of_laws) = (body[0].keys.to_vec(), Vec::new());
     let (mut of_properties, mut of_interfaces) = (Vec::new(), Vec::new());
-    each_interface!(I => of_interfaces.extend(I::sections()));
-    each_property!(P => {
+    each!(interface I => of_interfaces.extend(I::sections()));
+    each!(property P => {
         of_both.push(table(P::NAME, P::WITHOUT, P::MEANING));
         of_properties.extend(P::sections());
     });
-    each_law!(L => {
+    each!(law L => {
         of_both.push(table(L::NAME, "none", L::MEANING));
         of_laws.extend(L::sections());
     });
@@ -122,7 +122,7 @@ mod tests {
     use asperity_contact::temperature::Temperature;
     use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
     use asperity_contact::with::viscoelastic::{Steady, Viscoelasticity};
-    use asperity_contact::{each_capability, each_interface, film, wear};
+    use asperity_contact::{each, film, wear};
     use asperity_surface::{Form, Generator};
 
     use super::super::cursor::Table as Written;
@@ -224,11 +224,11 @@ mod tests {
         check::<Output>("");
         check::<Acceleration>("");
         check::<SlidingSpec>("");
-        each_capability!(C => check::<C>(""));
+        each!(capability C => check::<C>(""));
         check::<wear::WearCoefficient>("coefficient = 1e-16");
         check::<film::Film>("");
         check::<Temperature>("");
-        each_interface!(I => check::<I>(""));
+        each!(interface I => check::<I>(""));
         check::<SubsurfaceSpec>("");
         check::<Coating>("");
         check::<Viscoelasticity>("moduli = [1e6]\ntimes = [1]");
@@ -260,7 +260,7 @@ mod tests {
         check_table::<BodyKeys>("topography = { form = \"flat\" }");
         check_table::<UpperKeys>("");
         check_table::<Ends>("from = 1\nto = 2");
-        each_interface!(I => check_table::<I>("work = 0.05\nrange = 2e-9"));
+        each!(interface I => check_table::<I>("work = 0.05\nrange = 2e-9"));
         let topography = |kind: &str, beside: &str| {
             let path = TopographySpec::TABLES[0];
             check_examples(path, &TopographySpec::sections(), kind, beside, TopographySpec::read);

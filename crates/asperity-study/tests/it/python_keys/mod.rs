@@ -7,8 +7,8 @@ mod numbers;
 use std::fmt::Write as _;
 use std::path::Path;
 
+use asperity_contact::each;
 use asperity_contact::with::{BodyLaw, BodyProperty, Capability};
-use asperity_contact::{each_capability, each_law, each_property};
 use asperity_study::case::schema::{Fallback, Key, Kind};
 use asperity_study::keys;
 
@@ -183,7 +183,7 @@ fn agrees(name: &str, make: impl FnOnce(&str) -> String) {
 fn file() -> String {
     let mut classes = CLASSES.to_vec();
     let mut capabilities = String::new();
-    each_capability!(C => {
+    each!(capability C => {
         let name: &'static str = capitalised(C::NAME).leak();
         let tables: &'static [&'static str] = vec![C::NAME].leak();
         let about: &'static str = format!("Keys of ``{}``: {}.", C::NAME, C::MEANING).leak();
@@ -193,14 +193,14 @@ fn file() -> String {
         let _ = writeln!(capabilities, "    {}: Annotated[{name} | None, \"\",\n        {}]", C::NAME, quoted(&text));
     });
     let mut of_body = String::new();
-    each_law!(L => {
+    each!(law L => {
         let name: &'static str = capitalised(L::NAME).leak();
         let tables: &'static [&'static str] = vec![format!("lower.{}", L::NAME).leak() as &str].leak();
         let about: &'static str = format!("Keys of ``{}`` of a body: {}.", L::NAME, without_place(L::MEANING)).leak();
         classes.push((name, tables, &[], about));
         of_body += &keyword_of_body(&classes, L::NAME, L::MEANING);
     });
-    each_property!(P => of_body += &keyword_of_body(&classes, P::NAME, P::MEANING));
+    each!(property P => of_body += &keyword_of_body(&classes, P::NAME, P::MEANING));
     let mut names: Vec<&str> = classes.iter().map(|(name, ..)| *name).collect();
     names.sort_unstable();
     let names: Vec<String> = names.iter().map(|name| format!("    \"{name}\",\n")).collect();
