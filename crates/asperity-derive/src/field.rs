@@ -69,7 +69,7 @@ pub(crate) struct Field<'a> {
 
 impl<'a> Field<'a> {
     /// Reads a field of a struct.
-    pub(crate) fn of(field: &'a syn::Field) -> Result<Self> {
+    pub(crate) fn read(field: &'a syn::Field) -> Result<Self> {
         let name = field.ident.as_ref().ok_or_else(|| Error::new_spanned(field, "a key needs a name"))?;
         Self::new(name.clone(), &field.attrs, &field.ty)
     }
@@ -237,7 +237,7 @@ impl<'a> Field<'a> {
                 quote!(let #name = #read;)
             };
         }
-        let given = self.given(key);
+        let given = self.value(key);
         let read = match &self.default {
             _ if self.is_optional => given,
             Some(default) => quote!((#given).unwrap_or(#default)),
@@ -247,7 +247,7 @@ impl<'a> Field<'a> {
     }
 
     /// The expression of the value of the key, `None` if it is not given.
-    pub(crate) fn given(&self, key: &TokenStream) -> TokenStream {
+    pub(crate) fn value(&self, key: &TokenStream) -> TokenStream {
         let of = self.of;
         let read = match &self.accepts {
             Accepts::Choice => quote!(::asperity_base::table::choice::<#of>(value)),

@@ -38,7 +38,7 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
 
 /// A struct: all of its keys.
 fn group(input: &DeriveInput, attribute: &Attribute) -> Result<TokenStream> {
-    let fields = fields(input)?.named.iter().map(Field::of).collect::<Result<Vec<_>>>()?;
+    let fields = fields(input)?.named.iter().map(Field::read).collect::<Result<Vec<_>>>()?;
     let declarations = declarations(&fields)?;
     let keys = keys(&fields, &quote!(KEYS));
     let sections = sections(&fields, &quote!(KEYS), &quote!(tables));
@@ -59,7 +59,7 @@ fn one_of(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
     let names: Vec<String> = fields.iter().map(|field| field.name.to_string()).collect();
     let arms = data.variants.iter().zip(&fields).enumerate().map(|(index, (variant, field))| {
         let (variant, name) = (&variant.ident, field.name.to_string());
-        let given = field.given(&quote!(&KEYS[#index]));
+        let given = field.value(&quote!(&KEYS[#index]));
         quote!(#name => #given.map(Self::#variant),)
     });
     let read = quote! {
@@ -126,7 +126,7 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
                 )
             }
             Fields::Named(fields) => {
-                let fields = fields.named.iter().map(Field::of).collect::<Result<Vec<_>>>()?;
+                let fields = fields.named.iter().map(Field::read).collect::<Result<Vec<_>>>()?;
                 named(ident, &fields)?
             }
             Fields::Unnamed(_) => {
@@ -169,7 +169,7 @@ fn kinds(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result<
     let names: Vec<String> = data.variants.iter().map(|variant| snake(&variant.ident)).collect();
     let (mut sections, mut arms, mut checks) = (TokenStream::new(), TokenStream::new(), TokenStream::new());
     for (variant, kind) in data.variants.iter().zip(&names) {
-        let fields = variant.fields.iter().map(Field::of).collect::<Result<Vec<_>>>()?;
+        let fields = variant.fields.iter().map(Field::read).collect::<Result<Vec<_>>>()?;
         let parts: Vec<_> = fields.iter().filter_map(Field::part).collect();
         // A choice among the keys looks itself for those that do not suit it.
         let suits = quote! {

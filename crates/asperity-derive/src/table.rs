@@ -21,7 +21,7 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
     let attribute =
         attribute.ok_or_else(|| Error::new_spanned(input, "a table needs its name: #[table(\"…\")]"))?;
     let Attribute { names, has_default, check } = attribute.parse_args_with(Attribute::parse)?;
-    let fields = fields.named.iter().map(Field::of).collect::<Result<Vec<_>>>()?;
+    let fields = fields.named.iter().map(Field::read).collect::<Result<Vec<_>>>()?;
     let declarations = part::declarations(&fields)?;
     let list = quote!(<Self as ::asperity_base::table::Table>::KEYS);
     let keys = part::keys(&fields, &list);

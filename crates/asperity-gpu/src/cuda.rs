@@ -371,7 +371,7 @@ impl Device for Cuda {
 
     fn rough(&self, rough: &Rough, level: &Level, precision: Precision) -> Result<Gaps> {
         let kernels = self.kernels(precision)?;
-        let (side, waves) = (rough.side as i32, Waves::of(rough));
+        let (side, waves) = (rough.side as i32, Waves::from_rough(rough));
         let [parts, results] = [BLOCKS as usize, 1].map(|blocks| self.memory(blocks * PARTS * 8));
         let (parts, results) = (parts?, results?);
         // The sum of the results of all blocks, or the largest.

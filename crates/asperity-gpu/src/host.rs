@@ -58,7 +58,7 @@ impl Device for Host {
 
     fn rough(&self, rough: &Rough, level: &Level, _: Precision) -> Result<Gaps> {
         let transform = RealFft2::new(level.padded);
-        let waves = Waves::of(rough);
+        let waves = Waves::from_rough(rough);
         let side = rough.side;
         let at = |k: usize, l: usize| {
             let [re, im] =
@@ -90,7 +90,7 @@ impl Device for Host {
         let shapes: Vec<[usize; 2]> = gaps.iter().map(|gap| gap.dim().into()).collect();
         let cells = gaps.iter().map(Field::len).sum();
         let upper = gaps.iter().zip(&uppers);
-        let upper = upper.flat_map(|(gap, upper)| (0..gap.len()).map(|cell| upper.at(cell))).collect();
+        let upper = upper.flat_map(|(gap, upper)| (0..gap.len()).map(|cell| upper.value(cell))).collect();
         let transform = RealFft2::new(level.padded);
         let mut fields = HostFields {
             shapes,

@@ -22,7 +22,7 @@ pub(crate) struct Waves {
 }
 
 impl Waves {
-    pub(crate) fn of(rough: &Rough) -> Self {
+    pub(crate) fn from_rough(rough: &Rough) -> Self {
         Self {
             first: TAU / (rough.side as f64 * rough.pitch),
             longest: TAU / rough.longest,

@@ -58,7 +58,7 @@ impl SlabConvolution {
         let mut scratch = plans.scratch();
         let (mut row, mut spectrum) = (plans.along_y.make_input_vec(), plans.along_y.make_output_vec());
         let mut values = vec![0.0; half];
-        for (n, ix) in rows.of(ranks.rank()).enumerate() {
+        for (n, ix) in rows.of_rank(ranks.rank()).enumerate() {
             values.iter_mut().enumerate().for_each(|(iy, value)| *value = at(ix, iy));
             for (iy, value) in row.iter_mut().enumerate() {
                 *value = values[iy.min(shape[1] - iy)];
@@ -114,7 +114,7 @@ impl SlabConvolution {
 
 /// Returns the frequencies along y of this rank, out of their total number.
 fn columns_of(ranks: &dyn Ranks, frequencies: usize) -> Range<usize> {
-    Parts::even(frequencies, ranks.count()).of(ranks.rank())
+    Parts::even(frequencies, ranks.count()).of_rank(ranks.rank())
 }
 
 /// A field during its transforms.

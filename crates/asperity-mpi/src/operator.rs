@@ -66,7 +66,7 @@ impl SlabFft {
                 }
             };
             let padded = boundary.padded(whole.shape);
-            let at = |i, j| influence.at(i as f64 * whole.pitch[0], j as f64 * whole.pitch[1]);
+            let at = |i, j| influence.displacement(i as f64 * whole.pitch[0], j as f64 * whole.pitch[1]);
             let convolution = SlabConvolution::from_values(&slab, padded, at);
             (Coefficients::Cells(influence), convolution)
         };
@@ -128,7 +128,9 @@ impl Operator for SlabFft {
     fn influence(&self, i: usize, j: usize) -> f64 {
         let Grid { shape: [nx, ny], pitch } = self.slab.whole_grid();
         match &self.coefficients {
-            Coefficients::Cells(influence) => influence.at(i as f64 * pitch[0], j as f64 * pitch[1]),
+            Coefficients::Cells(influence) => {
+                influence.displacement(i as f64 * pitch[0], j as f64 * pitch[1])
+            }
             Coefficients::Periodic(near, far) => {
                 let at = [i.min(nx - i), j.min(ny - j)];
                 match near.get(at) {

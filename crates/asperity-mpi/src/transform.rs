@@ -30,12 +30,12 @@ impl SlabTransform {
 
     /// The rows of this rank.
     pub(crate) fn rows(&self) -> Range<usize> {
-        self.row_parts().of(self.ranks.rank())
+        self.row_parts().of_rank(self.ranks.rank())
     }
 
     /// The frequencies along y of this rank.
     pub(crate) fn frequencies(&self) -> Range<usize> {
-        self.column_parts().of(self.ranks.rank())
+        self.column_parts().of_rank(self.ranks.rank())
     }
 
     fn row_parts(&self) -> Parts {

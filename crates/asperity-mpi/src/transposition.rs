@@ -25,7 +25,7 @@ pub(crate) struct Transposition<T> {
 impl<T: Number> Transposition<T> {
     /// Creates zeros with these `rows`, and these `columns`, on each of the `ranks`.
     pub(crate) fn new(ranks: Arc<dyn Ranks>, rows: Parts, columns: Parts) -> Self {
-        let (own_rows, own_columns) = (rows.of(ranks.rank()).len(), columns.of(ranks.rank()).len());
+        let (own_rows, own_columns) = (rows.of_rank(ranks.rank()).len(), columns.of_rank(ranks.rank()).len());
         let row_counts: Vec<usize> = columns.all().map(|part| 2 * own_rows * part.len()).collect();
         let column_counts: Vec<usize> = rows.all().map(|part| 2 * part.len() * own_columns).collect();
         Self {
@@ -99,7 +99,7 @@ impl<T: Number> Transposition<T> {
 
     /// Number of columns of this rank.
     pub(crate) fn own_columns(&self) -> usize {
-        self.columns.of(self.ranks.rank()).len()
+        self.columns.of_rank(self.ranks.rank()).len()
     }
 
     /// Number of rows of all ranks.
@@ -108,7 +108,7 @@ impl<T: Number> Transposition<T> {
     }
 
     fn own_rows(&self) -> usize {
-        self.rows.of(self.ranks.rank()).len()
+        self.rows.of_rank(self.ranks.rank()).len()
     }
 }
 
@@ -123,7 +123,7 @@ mod tests {
             on_ranks(count, |ranks| {
                 let rank = ranks.rank();
                 let [by_rows, by_columns] = [rows, columns].map(|lines| Parts::even(lines, count));
-                let (own_rows, own_columns) = (by_rows.of(rank), by_columns.of(rank));
+                let (own_rows, own_columns) = (by_rows.of_rank(rank), by_columns.of_rank(rank));
                 let mut transposition = Transposition::new(ranks, by_rows, by_columns);
                 let value = |row: usize, column: usize| Complex::new(row as f64, column as f64);
                 for (n, row) in own_rows.clone().enumerate() {

@@ -255,7 +255,7 @@ impl CoreSpectrum {
     #[new]
     fn new(py: Python<'_>, heights: Heights<'_>, window: &str) -> PyResult<Self> {
         let window = word::<Window>(py, "window", window)?;
-        of(py, &heights, |topography| Ok(Self(Spectrum::of(topography, window))))
+        of(py, &heights, |topography| Ok(Self(Spectrum::new(topography, window))))
     }
 
     fn density<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
@@ -321,7 +321,7 @@ impl CoreCorrelation {
         of(py, &heights, |topography| {
             Ok(Self(match periodic {
                 true => Correlation::periodic(topography),
-                false => Correlation::of(topography),
+                false => Correlation::new(topography),
             }))
         })
     }
@@ -358,7 +358,7 @@ type SummitData = (Vec<(usize, usize, f64, f64)>, f64, Asperities);
 #[pyfunction]
 pub(crate) fn summits(py: Python<'_>, heights: Heights<'_>) -> PyResult<SummitData> {
     of(py, &heights, |topography| {
-        let found = Summits::of(topography);
+        let found = Summits::new(topography);
         let all = found.summits.iter();
         let all = all.map(|summit| (summit.sample[0], summit.sample[1], summit.height, summit.curvature));
         Ok((all.collect(), found.area, asperities(&found.greenwood_williamson())))

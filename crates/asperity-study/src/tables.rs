@@ -33,7 +33,9 @@ pub(super) fn checked<T: Record>(records: &[T]) -> Result<Vec<Row>> {
         };
         match row.0.iter().find(wrong) {
             None => Ok(row),
-            Some((column, _)) => Err(record.at(Error::NotFinite { field: column.clone(), cell: Vec::new() })),
+            Some((column, _)) => {
+                Err(record.error_at(Error::NotFinite { field: column.clone(), cell: Vec::new() }))
+            }
         }
     };
     records.iter().map(row).collect()

@@ -36,7 +36,7 @@ fn main() -> Result<()> {
     let [x, y] = surface.grid().pitch.map(|pitch| format(pitch, Dimension::Length));
     println!("heights   {nx} × {ny} at {x} × {y}, {} missing", surface.undefined());
 
-    for row in Parameters::of(&surface.level(Level::Plane)?).rows() {
+    for row in Parameters::new(&surface.level(Level::Plane)?).rows() {
         if ["Sa", "Sq", "Sz", "Ssk", "Sku", "Sal", "Sdq", "Sdr"].contains(&row.symbol) {
             println!("{:<9} {:<10} {}", row.symbol, row.unit.format(row.value), row.meaning);
         }

@@ -26,8 +26,8 @@ fn main() -> Result<()> {
     };
     let surface = law.generate(&grid, 1)?;
 
-    let found = Parameters::of(&surface);
-    let spectrum = Spectrum::of(&surface, Window::None).radial(Bins::Logarithmic { per_decade: 10 });
+    let found = Parameters::new(&surface);
+    let spectrum = Spectrum::new(&surface, Window::None).radial(Bins::Logarithmic { per_decade: 10 });
     let hurst = SelfAffinity::of_longest_range(&spectrum)?.hurst;
     println!("Sq        {}, asked for 200 nm", format(found.height.sq, Dimension::Length));
     println!("Hurst     {hurst:.2}, asked for 0.8");

@@ -25,7 +25,7 @@ pub struct Correlation {
 
 impl Correlation {
     /// Computes the autocorrelation of a nonperiodic topography: the mean over the pairs within it.
-    pub fn of(topography: &Topography) -> Self {
+    pub fn new(topography: &Topography) -> Self {
         // Zero-padded to the longest lag, so that no pair wraps around.
         Self::with_period(topography, topography.grid().shape.map(|n| good_size(n + n / 2)))
     }
@@ -244,7 +244,7 @@ mod tests {
             let (mean, z) = (topography.mean(), topography.heights());
             let [n, m] = shape.map(|n| n as isize);
             for (correlation, periodic) in
-                [(Correlation::of(&topography), false), (Correlation::periodic(&topography), true)]
+                [(Correlation::new(&topography), false), (Correlation::periodic(&topography), true)]
             {
                 for ((i, j), r) in correlation.values().indexed_iter() {
                     let lag = [i as isize - n / 2, j as isize - m / 2];
@@ -284,7 +284,7 @@ mod tests {
     fn it_is_the_transform_of_the_spectrum() {
         // Wiener–Khinchin: R(τ) = (1/A) Σ C(q) cos(q·τ).
         let topography = rough([24, 17], [0.5, 1.0], [3.0; 2], 2);
-        let spectrum = Spectrum::of(&topography, Window::None);
+        let spectrum = Spectrum::new(&topography, Window::None);
         let correlation = Correlation::periodic(&topography);
         for ((i, j), r) in correlation.values().indexed_iter() {
             let lag = [(i as f64 - 12.0) * 0.5, j as f64 - 8.0];
@@ -302,7 +302,7 @@ mod tests {
         let whole = rough([256, 256], [1.0; 2], [12.0; 2], 3);
         let holed = with_holes(whole.clone(), 5);
         assert_relative_eq!(holed.undefined() as f64, 0.2 * 65536.0, max_relative = 0.05);
-        let [whole, holed] = [whole, holed].map(|z| Correlation::of(&z).radial());
+        let [whole, holed] = [whole, holed].map(|z| Correlation::new(&z).radial());
         let error = (2.0 * 0.36 / 0.64 / 65536.0f64).sqrt();
         for (expected, found) in whole.iter().zip(&holed).take(24) {
             assert!((expected.1 - found.1).abs() < 4.0 * error, "{expected:?} {found:?}");
@@ -314,7 +314,7 @@ mod tests {
         let lengths = [10.0; 2];
         let seeds = 4;
         let radial: Vec<_> = (0..seeds)
-            .map(|seed| Correlation::of(&rough([400, 300], [1.0; 2], lengths, seed)).radial())
+            .map(|seed| Correlation::new(&rough([400, 300], [1.0; 2], lengths, seed)).radial())
             .collect();
         // Correlated area ∫ R² = 2π (β/2 ln 10)² per independent spot; the mean of each surface is set to 0.
         let spots = 400.0 * 300.0 * seeds as f64 / (TAU * (10.0 / 4.605f64).powi(2));
@@ -374,6 +374,6 @@ mod tests {
             given([20, 30], [1.0, 1.0], |_, _| 1.0).decay_lengths(0.2).iter().all(|length| length.is_nan())
         );
         let flat = Form::Flat.on(&Grid::new([16, 16], [1.0; 2]).unwrap()).unwrap();
-        assert!(Correlation::of(&flat).decay_lengths(0.2).iter().all(|length| length.is_nan()));
+        assert!(Correlation::new(&flat).decay_lengths(0.2).iter().all(|length| length.is_nan()));
     }
 }

@@ -300,7 +300,7 @@ mod tests {
         for (lay, shape) in [(0.0, [3, 4000]), (std::f64::consts::FRAC_PI_2, [4000, 3]), (0.6, [1000, 1000])]
         {
             let form = Form::Grooves { period: 100.0, depth: 2.0, profile: Groove::Parabolic, lay };
-            let parameters = HeightParameters::of(&form.on(&Grid::new(shape, [1.0; 2]).unwrap()).unwrap());
+            let parameters = HeightParameters::new(&form.on(&Grid::new(shape, [1.0; 2]).unwrap()).unwrap());
             // Whole periods are accurate to the square of pitch/period; across the grid the number of periods
             // is not whole.
             let tolerance = if lay == 0.6 { 0.02 } else { 1e-3 };

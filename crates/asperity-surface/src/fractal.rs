@@ -227,7 +227,7 @@ mod tests {
             let (mut mean, mut variance) = (0.0, 0.0);
             for seed in 0..seeds {
                 let part = self_affine(512, hurst, [None; 2], seed).window([0, 0, 256, 256]).unwrap();
-                let radial = Spectrum::of(&part, Window::Hann).radial(Bins::Logarithmic { per_decade: 10 });
+                let radial = Spectrum::new(&part, Window::Hann).radial(Bins::Logarithmic { per_decade: 10 });
                 let fit = SelfAffinity::of_spectrum(&radial, [TAU / 32.0, TAU / 2.5]).unwrap();
                 mean += fit.hurst / seeds as f64;
                 variance += fit.hurst_error.powi(2) / (seeds * seeds) as f64;
@@ -247,7 +247,7 @@ mod tests {
     fn the_longest_range_leaves_out_roll_off_and_cut_off() {
         let (rolloff, shortest) = (40.0, 4.0);
         let surface = self_affine(512, 0.6, [Some(rolloff), Some(shortest)], 2);
-        let radial = Spectrum::of(&surface, Window::None).radial(Bins::Logarithmic { per_decade: 20 });
+        let radial = Spectrum::new(&surface, Window::None).radial(Bins::Logarithmic { per_decade: 20 });
         let fit = SelfAffinity::of_longest_range(&radial).unwrap();
         // The magnitudes are exact. Only the ends may be a ring, 12 %, too far out or in.
         assert_relative_eq!(fit.range[0], TAU / rolloff, max_relative = 0.25);

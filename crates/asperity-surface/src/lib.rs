@@ -8,7 +8,7 @@
 //! # let disc = concat!(env!("CARGO_MANIFEST_DIR"), "/../asperity-cli/examples/measured/disc.x3p");
 //! let disc = Topography::read(disc)?; // "disc.x3p", or .sur, .opd, .plu, .sdf, …: recognised by its content
 //! let disc = disc.level(Level::Plane)?;
-//! let height = Parameters::of(&disc).height;
+//! let height = Parameters::new(&disc).height;
 //! println!("Sa {:.1} nm, Sq {:.1} nm", 1e9 * height.sa, 1e9 * height.sq);
 //! # assert!(height.sa < height.sq && (1e-9..1e-5).contains(&height.sq));
 //! # }

@@ -130,7 +130,7 @@ mod tests {
     fn those_of_a_sinusoid_are_half_its_squared_amplitude_times_powers_of_q() {
         let grid = Grid::new([40, 60], [0.5, 1.0]).unwrap();
         let z = Form::Sinusoid { amplitude: 2.0, wavelength: [5.0, f64::INFINITY] }.on(&grid).unwrap();
-        let moments = Spectrum::of(&z, Window::None).moments();
+        let moments = Spectrum::new(&z, Window::None).moments();
         let q = TAU / 5.0;
         assert_relative_eq!(moments.m0, 2.0, max_relative = 1e-12);
         assert_relative_eq!(moments.m2[0], 2.0 * q.powi(2), max_relative = 1e-12);
@@ -176,7 +176,7 @@ mod tests {
         let grid = Grid::new([96, 64], [1.0, 0.5]).unwrap();
         let amplitude = Amplitude::Sdq(0.3);
         let law = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude };
-        let moments = Spectrum::of(&law.generate(&grid, 1).unwrap(), Window::None).moments();
+        let moments = Spectrum::new(&law.generate(&grid, 1).unwrap(), Window::None).moments();
         assert_relative_eq!(2.0 * moments.mean_m2(), 0.09, max_relative = 1e-12);
     }
 
@@ -187,7 +187,7 @@ mod tests {
         // window leaves 1 in (35/18)² of them.
         let grid = Grid::new([256, 256], [1.0; 2]).unwrap();
         let heights = LowPass::new(1.0, [8.0; 2]).generate(&grid, 3).unwrap();
-        let moments = Spectrum::of(&heights, Window::Hann).moments();
+        let moments = Spectrum::new(&heights, Window::Hann).moments();
         let q = TAU / 8.0;
         let error = 35.0 / 18.0 * (2.0 / (PI * (256.0f64 / 8.0).powi(2))).sqrt();
         let smeared = q.powi(2) / 4.0 + (TAU / 256.0).powi(2) / 3.0;

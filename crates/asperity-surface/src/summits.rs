@@ -54,7 +54,7 @@ pub struct GreenwoodWilliamson {
 
 impl Summits {
     /// Finds the summits of `topography`.
-    pub fn of(topography: &Topography) -> Self {
+    pub fn new(topography: &Topography) -> Self {
         let (grid, z) = (topography.grid(), topography.heights());
         let mean = topography.mean();
         let mut seen = Array2::from_elem(grid.shape, false);
@@ -156,14 +156,14 @@ mod tests {
 
     fn summits(heights: Field) -> Summits {
         let (nx, ny) = heights.dim();
-        Summits::of(&Topography::new(Grid::new([nx, ny], [0.5, 2.0]).unwrap(), heights).unwrap())
+        Summits::new(&Topography::new(Grid::new([nx, ny], [0.5, 2.0]).unwrap(), heights).unwrap())
     }
 
     #[test]
     fn a_sinusoid_has_a_summit_of_its_curvature_on_every_crest() {
         let grid = Grid::new([61, 51], [0.5, 1.0]).unwrap();
         let z = Form::Sinusoid { amplitude: 2.0, wavelength: [10.0, 25.0] }.on(&grid).unwrap();
-        let found = Summits::of(&z);
+        let found = Summits::new(&z);
         // cos·cos has crests at (m λx, n λy) from the centre and at (m + ½, n + ½) between: inside the
         // boundary 3 × 1 and 2 × 2.
         assert_eq!(found.summits.len(), 7);
@@ -219,10 +219,10 @@ mod tests {
         let mut predicted = Vec::new();
         for seed in 0..seeds {
             let z = LowPass::new(1.0, [wavelength; 2]).generate(&grid, seed).unwrap();
-            let Summits { summits, area } = Summits::of(&z);
+            let Summits { summits, area } = Summits::new(&z);
             all.summits.extend(summits);
             all.area += area;
-            predicted.push(Spectrum::of(&z, Window::Hann).moments().greenwood_williamson());
+            predicted.push(Spectrum::new(&z, Window::Hann).moments().greenwood_williamson());
         }
         let found = all.greenwood_williamson();
         let q2 = (TAU / wavelength).powi(2);

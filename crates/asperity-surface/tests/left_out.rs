@@ -16,7 +16,7 @@ fn what_is_left_out_is_named() {
         let error = ReadOptions::default().scan_bytes("a file", bytes).unwrap_err().to_string();
         assert_eq!(error.contains(&format!("the feature `{feature}` is left out")), !is_read, "{error}");
     }
-    assert_eq!(Format::of("a.x3p").is_some(), cfg!(feature = "zip"));
+    assert_eq!(Format::from_path("a.x3p").is_some(), cfg!(feature = "zip"));
 }
 
 #[test]

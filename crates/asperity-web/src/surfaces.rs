@@ -150,7 +150,7 @@ fn sections(table: &Table) -> Value {
 
 /// The spectrum over wave numbers: the radial mean, or that along a line.
 fn spectrum(topography: &Topography) -> Value {
-    let spectrum = Spectrum::of(topography, Window::Hann);
+    let spectrum = Spectrum::new(topography, Window::Hann);
     let points = match line_of(topography) {
         None => spectrum.radial(RINGS),
         Some(axis) => spectrum.along(axis),

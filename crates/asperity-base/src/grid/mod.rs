@@ -89,7 +89,7 @@ impl CellValues {
     /// # Panics
     /// If there is no such cell, or if a field is not in standard layout.
     #[inline]
-    pub fn at(&self, cell: usize) -> f64 {
+    pub fn value(&self, cell: usize) -> f64 {
         match self {
             Self::Uniform(value) => *value,
             Self::Field(field) => field.as_slice().expect("standard layout")[cell],

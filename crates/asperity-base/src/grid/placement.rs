@@ -97,8 +97,8 @@ impl Placement {
     pub fn value(&self, values: &CellValues, cell: usize) -> f64 {
         match values {
             CellValues::Uniform(value) => *value,
-            CellValues::Field(_) if self.fraction == 0.0 => values.at(cell),
-            CellValues::Field(_) => self.parts(cell).map(|(cell, weight)| weight * values.at(cell)).sum(),
+            CellValues::Field(_) if self.fraction == 0.0 => values.value(cell),
+            CellValues::Field(_) => self.parts(cell).map(|(cell, weight)| weight * values.value(cell)).sum(),
         }
     }
 

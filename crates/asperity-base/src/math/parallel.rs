@@ -23,7 +23,7 @@ pub fn map<T: Send, R: Send>(
 /// Merges the results of a function of the rows of each band of a grid of `shape`, in their order.
 #[inline]
 pub fn merged<M: Merged + Send>(shape: [usize; 2], of_rows: impl Fn(Range<usize>) -> M + Sync) -> M {
-    M::of_parts(map(Bands::of(shape).rows(), of_rows))
+    M::of_parts(map(Bands::new(shape).rows(), of_rows))
 }
 
 /// Smallest number of bands per thread.
@@ -179,7 +179,7 @@ const MIN_ROWS: usize = 32;
 impl Bands {
     /// Creates the bands of a grid of `shape`.
     #[inline]
-    pub fn of(shape: [usize; 2]) -> Self {
+    pub fn new(shape: [usize; 2]) -> Self {
         let [all, columns] = shape;
         Self { rows: MIN_CELLS.div_ceil(columns).max(MIN_ROWS), columns, all }
     }

@@ -35,7 +35,7 @@ impl Halo {
         let [rows, columns] = slab.whole_grid().shape;
         let (rank, parts) = (slab.ranks().rank(), slab.parts());
         let with_halo = |own: Range<usize>| own.start.saturating_sub(reach)..(own.end + reach).min(rows);
-        let own = parts.of(rank);
+        let own = parts.of_rank(rank);
         let extended = with_halo(own.clone());
         let both = |a: &Range<usize>, b: &Range<usize>| {
             let both = a.start.max(b.start)..a.end.min(b.end);

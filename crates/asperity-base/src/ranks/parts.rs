@@ -33,7 +33,7 @@ impl Parts {
 
     /// Lines of a rank.
     #[inline]
-    pub fn of(&self, rank: usize) -> Range<usize> {
+    pub fn of_rank(&self, rank: usize) -> Range<usize> {
         self.first[rank]..self.first[rank + 1]
     }
 

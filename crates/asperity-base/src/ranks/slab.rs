@@ -68,7 +68,7 @@ impl Slab {
     /// The rows of this rank.
     #[inline]
     pub fn rows(&self) -> Range<usize> {
-        self.rows.of(self.ranks.rank())
+        self.rows.of_rank(self.ranks.rank())
     }
 
     /// The rows of each rank.

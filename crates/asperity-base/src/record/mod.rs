@@ -18,7 +18,7 @@ pub trait Record: Serialize {
     const COLUMNS: &'static [Column];
 
     /// Wraps an error as one at the step of the record.
-    fn at(&self, error: Error) -> Error {
+    fn error_at(&self, error: Error) -> Error {
         error
     }
 }

@@ -20,7 +20,7 @@ pub(super) struct Output {
 impl Output {
     /// Returns an error for a name without a known format, and for an existing file unless `overwrite`.
     pub(super) fn new(path: &Path, overwrite: bool) -> Outcome<Self> {
-        let format = Format::of(path);
+        let format = Format::from_path(path);
         let is_picture = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
         if format.is_none() && !is_picture {
             let hint = "the end of its name tells the format: .npy, .x3p, .sdf, .gwy, .vtk or .png";

@@ -97,7 +97,7 @@ impl Sheet<'_> {
 
     /// Draws the spectrum along the only axis of a line.
     fn spectrum_along(&self, axis: Direction) -> Outcome<Value> {
-        let along = Spectrum::of(self.topography, Window::Hann).along(axis);
+        let along = Spectrum::new(self.topography, Window::Hann).along(axis);
         let shown = along.iter().filter(|p| p.wave_number > 0.0 && p.density > 0.0);
         let points = shown.map(|p| [p.wave_number, p.density]).collect();
         let x = Axis::log("wave number", Unit::Wavenumber);
@@ -205,7 +205,7 @@ impl Sheet<'_> {
 
     /// Draws the spectrum averaged over all directions with its power law, and as a map.
     fn spectrum(&self) -> Outcome<Value> {
-        let spectrum = Spectrum::of(self.topography, Window::Hann);
+        let spectrum = Spectrum::new(self.topography, Window::Hann);
         let radial = spectrum.radial(RINGS);
         let points = |points: &[SpectralPoint]| -> Vec<[f64; 2]> {
             points.iter().filter(|p| p.wave_number > 0.0).map(|p| [p.wave_number, p.density]).collect()
@@ -234,7 +234,7 @@ impl Sheet<'_> {
         let grid = self.topography.grid();
         let field = Field::from_shape_fn(grid.shape, |(i, j)| {
             let wave = |axis: usize, index: usize| index as isize - (grid.shape[axis] / 2) as isize;
-            spectrum.at([wave(0, i), wave(1, j)])
+            spectrum.density_at([wave(0, i), wave(1, j)])
         });
         let largest = field.iter().copied().fold(0.0, f64::max);
         // A plane has no spectrum, and heights of 10¹⁵⁰ m overflow.
@@ -251,7 +251,7 @@ impl Sheet<'_> {
 
     /// Draws the autocorrelation as a map, and along lines.
     fn autocorrelation(&self) -> Outcome<Value> {
-        let correlation = Correlation::of(self.topography);
+        let correlation = Correlation::new(self.topography);
         let variance = correlation.variance();
         if variance == 0.0 {
             return Ok(Value::Null);

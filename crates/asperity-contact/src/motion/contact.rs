@@ -80,7 +80,7 @@ impl Contact {
         };
         let contact = regime.solver(pair, operators, shape, params.device)?.solve(&problem)?;
         let before = last.map(Equilibrium::normal);
-        let interface = InterfaceRecord::of(pair.interface(), contact.normal(), before);
+        let interface = InterfaceRecord::new(pair.interface(), contact.normal(), before);
         Ok((Self { interface, ..Self::new(position, contact.sliding(), contact.normal()) }, contact))
     }
 

@@ -60,7 +60,7 @@ pub(super) fn load_removing(
     elastic
         .iter_mut()
         .zip(pressures)
-        .for_each(|(elastic, (cell, p))| *elastic -= depth.at(cell) * modulus * p);
+        .for_each(|(elastic, (cell, p))| *elastic -= depth.value(cell) * modulus * p);
     Ok((solution, elastic))
 }
 

@@ -178,8 +178,10 @@ impl GridCompliance {
         for i in -REACH..=REACH {
             for j in -REACH..=REACH {
                 let sign = if (i + j) % 2 == 0 { 1.0 } else { -1.0 };
-                checkerboard +=
-                    sign * fade(i) * fade(j) * influence.at(f64::from(i) * pitch[0], f64::from(j) * pitch[1]);
+                checkerboard += sign
+                    * fade(i)
+                    * fade(j)
+                    * influence.displacement(f64::from(i) * pitch[0], f64::from(j) * pitch[1]);
             }
         }
         if boundary.repeats(0) || boundary.repeats(1) {
@@ -188,7 +190,7 @@ impl GridCompliance {
         }
         // At once viscoelastic bodies answer as glass.
         let glassy = pair.creep_together().map_or(1.0, |creep| creep.glassy / creep.relaxed());
-        Self { single: glassy * influence.at(0.0, 0.0), checkerboard: glassy * checkerboard }
+        Self { single: glassy * influence.displacement(0.0, 0.0), checkerboard: glassy * checkerboard }
     }
 }
 

@@ -91,7 +91,7 @@ impl Solver<'_> {
         }
         let caps = bounds.iter().zip(self.positions).map(|(bounds, position)| {
             let shape = pair.grid(position.columns).shape;
-            Field::from_shape_fn(shape, |(i, j)| bounds.upper().at(i * shape[1] + j))
+            Field::from_shape_fn(shape, |(i, j)| bounds.upper().value(i * shape[1] + j))
         });
         CellValues::Field(stacked(caps))
     }
@@ -140,7 +140,7 @@ impl WornPass<'_> {
                         .for_each(|(cell, weight)| cells[cell] += weight * p);
                 }
             }
-            cells.iter_mut().enumerate().for_each(|(cell, sum)| *sum *= compliance.at(cell));
+            cells.iter_mut().enumerate().for_each(|(cell, sum)| *sum *= compliance.value(cell));
             Some(worn)
         })
     }
@@ -164,7 +164,7 @@ impl Operator for WornPass<'_> {
     /// Influence between cells at one position, from the elastic response alone.
     fn influence(&self, i: usize, j: usize) -> f64 {
         let pitch = self.grid.pitch;
-        self.pair.response().influence(pitch).at(i as f64 * pitch[0], j as f64 * pitch[1])
+        self.pair.response().influence(pitch).displacement(i as f64 * pitch[0], j as f64 * pitch[1])
     }
 
     fn self_influence(&self) -> CellValues {
@@ -175,7 +175,7 @@ impl Operator for WornPass<'_> {
             for (placement, compliance) in self.pair.placements(position).iter().zip(&self.compliance) {
                 for (cell, own) in own.iter_mut().enumerate() {
                     let parts = placement.parts(placement.cell(cell));
-                    *own += parts.map(|(cell, weight)| weight * weight * compliance.at(cell)).sum::<f64>();
+                    *own += parts.map(|(cell, weight)| weight * weight * compliance.value(cell)).sum::<f64>();
                 }
             }
         }

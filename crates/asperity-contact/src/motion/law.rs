@@ -389,7 +389,7 @@ pub(super) fn compliance(
     let of_laws: Vec<_> =
         laws.iter().zip(sums).map(|(law, sums)| law.per_pressure_of_cells(pair, sums, friction)).collect();
     [0, 1].map(|body| {
-        let at = |cell: usize| distance * of_laws.iter().map(|of_law| of_law[body].at(cell)).sum::<f64>();
+        let at = |cell: usize| distance * of_laws.iter().map(|of_law| of_law[body].value(cell)).sum::<f64>();
         if of_laws.iter().all(|of_law| of_law[body].uniform().is_some()) {
             return CellValues::Uniform(at(0));
         }

@@ -365,7 +365,7 @@ pub fn initial_gap(surfaces: [&Field; 2], position: &Position) -> Field {
     let [lower, upper] = position.placements(surfaces.map(|surface| [surface.nrows(), surface.ncols()]));
     let shape = [position.columns, surfaces[0].ncols()];
     let mut gap = Field::zeros(shape);
-    let bands = Bands::of(shape);
+    let bands = Bands::new(shape);
     parallel::map(bands.rows().zip(bands.cut_mut(flat_mut(&mut gap))), |(rows, gap)| {
         for (j, row) in rows.zip(gap.chunks_mut(shape[1])) {
             upper.for_column(surfaces[1], j, row, |h, z2| *h = z2);

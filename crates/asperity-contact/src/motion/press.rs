@@ -48,7 +48,7 @@ impl LoadedContact {
             None => StaticRecord::new(solution.normal()),
             shear => StaticRecord { shear, ..static_record(&solution, &plastic) },
         };
-        let interface = InterfaceRecord::of(pair.interface(), solution.normal(), None);
+        let interface = InterfaceRecord::new(pair.interface(), solution.normal(), None);
         Self {
             record: StaticRecord { interface, ..record },
             increments: Vec::new(),

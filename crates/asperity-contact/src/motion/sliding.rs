@@ -312,7 +312,7 @@ impl SlidingContact {
             let weight =
                 |pressure: f64| if state.pair.interface().is_hard() { 1.0 } else { pressure.abs() / highest };
             let change = |(cell, pressure): &(u32, f64)| {
-                weight(*pressure) * (next.at(*cell as usize) - compliance.at(*cell as usize)).abs()
+                weight(*pressure) * (next.value(*cell as usize) - compliance.value(*cell as usize)).abs()
             };
             let most = contact.pressure.iter().map(change).fold(0.0, f64::max);
             if most <= COEFFICIENT_ACCURACY * next.max() || solutions == MAX_SOLUTIONS {
@@ -373,7 +373,7 @@ impl SlidingContact {
             }
         };
         let before = last.as_ref().map(Equilibrium::normal);
-        let interface = InterfaceRecord::of(pair.interface(), &solution, before);
+        let interface = InterfaceRecord::new(pair.interface(), &solution, before);
         let contact =
             Contact { interface, ..Contact::new(position, self.slide.sliding().as_ref(), &solution) };
         Ok(Pressed { solution, contact, elastic })
@@ -394,7 +394,7 @@ impl SlidingContact {
         pressed
             .iter_mut()
             .enumerate()
-            .for_each(|(cell, p)| *p = if *p > 0.0 { depths.at(cell) } else { 0.0 });
+            .for_each(|(cell, p)| *p = if *p > 0.0 { depths.value(cell) } else { 0.0 });
         pressed.into()
     }
 

@@ -74,7 +74,7 @@ fn a_compliance_adds_to_the_displacement_by_any_operator() {
                 unit[cell] = 1.0;
                 let mut displacement = grid.zeros();
                 operator.apply(&unit, &mut displacement);
-                assert!((displacement[cell] / own.at(cell[0] * 12 + cell[1]) - 1.0).abs() < 1e-12);
+                assert!((displacement[cell] / own.value(cell[0] * 12 + cell[1]) - 1.0).abs() < 1e-12);
             }
             assert!((own.sum(108) / 108.0 / operator.influence(0, 0) - 1.0).abs() < 1e-12);
             double
@@ -82,7 +82,7 @@ fn a_compliance_adds_to_the_displacement_by_any_operator() {
         let mut plain = grid.zeros();
         DirectSum::new(grid, 1.0).apply(&pressure, &mut plain);
         for (cell, u) in plain.iter_mut().enumerate() {
-            *u += compliance.at(cell) * pressure.as_slice().unwrap()[cell];
+            *u += compliance.value(cell) * pressure.as_slice().unwrap()[cell];
         }
         assert!(difference(&applied(Box::new(DirectSum::new(grid, 1.0))), &plain) < 1e-13);
         assert!(difference(&applied(Box::new(FreeFft::new(grid, 1.0))), &plain) < 1e-12);
@@ -123,7 +123,7 @@ fn by_projection(
     let (nx, ny) = gap.dim();
     let n = nx * ny;
     let influence = |a: usize, b: usize| {
-        let own = if a == b { compliance.at(a) } else { 0.0 };
+        let own = if a == b { compliance.value(a) } else { 0.0 };
         operator.influence((a / ny).abs_diff(b / ny), (a % ny).abs_diff(b % ny)) + own
     };
     let matrix = Field::from_shape_fn([n, n], |(a, b)| influence(a, b));

@@ -245,7 +245,7 @@ fn keeps_the_law(seed: u64) {
             assert!(taken[cell] >= before[cell] - allowed, "{what}: flows back");
             assert!(apart[cell] >= -allowed, "{what}: overlaps by {:e}", apart[cell]);
             assert!(*p == 0.0 || apart[cell] <= allowed, "{what}: bears over a gap of {:e}", apart[cell]);
-            let cap = normal.bounds.upper().at(flat);
+            let cap = normal.bounds.upper().value(flat);
             let flows = taken[cell] > before[cell] + allowed;
             assert!(!flows || *p >= cap * (1.0 - 1e-9), "{what}: flows under {p:e} of {cap:e}");
         }

@@ -31,7 +31,7 @@ impl Response for Sprung {
     fn influence(&self, pitch: [f64; 2]) -> Box<dyn Influence> {
         let (half_spaces, compliance) = (HalfSpaces::from(self.modulus).influence(pitch), self.compliance);
         Box::new(move |x: f64, y: f64| {
-            half_spaces.at(x, y) + if (x, y) == (0.0, 0.0) { compliance } else { 0.0 }
+            half_spaces.displacement(x, y) + if (x, y) == (0.0, 0.0) { compliance } else { 0.0 }
         })
     }
 }
@@ -131,7 +131,7 @@ fn transforms_of_ones_own_bodies_are_the_direct_sum_on_fine_and_coarse_grids() {
     let largest = slow.fold(0.0, |most: f64, u| most.max(u.abs()));
     assert!((&fast - &slow).iter().all(|error| error.abs() < 1e-13 * largest));
     let coarse = FreeFft::new(GRID, Graded).coarse();
-    let own = Graded.influence(coarse.grid().pitch).at(0.0, 0.0);
+    let own = Graded.influence(coarse.grid().pitch).displacement(0.0, 0.0);
     assert_eq!(coarse.influence(0, 0), own);
 }
 

@@ -29,7 +29,7 @@ impl Response for [SharedResponse; 2] {
 
     fn influence(&self, pitch: [Metre; 2]) -> Box<dyn Influence> {
         let [lower, upper] = self.each_ref().map(|body| body.influence(pitch));
-        Box::new(move |x: Metre, y: Metre| lower.at(x, y) + upper.at(x, y))
+        Box::new(move |x: Metre, y: Metre| lower.displacement(x, y) + upper.displacement(x, y))
     }
 }
 
@@ -276,12 +276,12 @@ mod tests {
                 let body = coated(base, thickness, layer);
                 let influence = body.influence(pitch);
                 let love = |x, y| body.layering.short * normal_displacement(x, y, pitch, 1.0);
-                let own = influence.at(0.0, 0.0);
+                let own = influence.displacement(0.0, 0.0);
                 assert!(own > 0.0, "{body:?}, {pitch:?}");
                 for cells in [[0.0, 0.0], [1.0, 0.0], [2.0, 3.0], [9.0, 5.0]] {
                     let [x, y] = [0, 1].map(|axis| cells[axis] * pitch[axis]);
                     let slow = beyond_the_layer(&body, [x, y], pitch);
-                    let fast = influence.at(x, y) - love(x, y);
+                    let fast = influence.displacement(x, y) - love(x, y);
                     let scale = own.max(love(0.0, 0.0));
                     assert!(
                         (slow - fast).abs() < 1e-10 * scale,

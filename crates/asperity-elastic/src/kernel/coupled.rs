@@ -27,7 +27,7 @@ impl CoupledTable {
     }
 
     /// Returns the displacement of the cell `to` per unit traction on the cell `from`.
-    pub fn at(&self, to: [usize; 2], from: [usize; 2]) -> Coefficients {
+    pub fn coefficients(&self, to: [usize; 2], from: [usize; 2]) -> Coefficients {
         let offset = [to[0].abs_diff(from[0]), to[1].abs_diff(from[1])];
         let sign = |axis: usize| match to[axis].cmp(&from[axis]) {
             Ordering::Less => -1.0,
@@ -46,7 +46,7 @@ pub fn coupled_matrix(shape: [usize; 2], pitch: [Metre; 2], compliances: &Compli
     let cells = shape[0] * shape[1];
     let place = |cell: usize| [cell / shape[1], cell % shape[1]];
     Field::from_shape_fn([3 * cells, 3 * cells], |(m, n)| {
-        table.at(place(m % cells), place(n % cells)).matrix()[m / cells][n / cells]
+        table.coefficients(place(m % cells), place(n % cells)).matrix()[m / cells][n / cells]
     })
 }
 
@@ -143,7 +143,7 @@ mod tests {
         for (to, from) in [([0, 0], [3, 1]), ([3, 1], [0, 4]), ([1, 4], [1, 0]), ([2, 0], [3, 4])] {
             let offset = |axis: usize| (to[axis] as f64 - from[axis] as f64) * PITCH[axis];
             let direct = coupled_displacement(offset(0), offset(1), PITCH, &pair).matrix();
-            let found = table.at(to, from).matrix();
+            let found = table.coefficients(to, from).matrix();
             for (a, b) in found.iter().flatten().zip(direct.iter().flatten()) {
                 assert_relative_eq!(*a, *b, epsilon = 1e-15);
             }

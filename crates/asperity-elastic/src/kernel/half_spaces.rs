@@ -70,7 +70,7 @@ struct LineOfCells {
 }
 
 impl Influence for LineOfCells {
-    fn at(&self, x: Metre, y: Metre) -> f64 {
+    fn displacement(&self, x: Metre, y: Metre) -> f64 {
         self.line.normal_displacement(x, y, self.pitch, self.modulus)
     }
 

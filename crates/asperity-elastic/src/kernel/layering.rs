@@ -52,7 +52,7 @@ struct Layered {
 }
 
 impl Influence for Layered {
-    fn at(&self, x: Metre, y: Metre) -> f64 {
+    fn displacement(&self, x: Metre, y: Metre) -> f64 {
         let Self { layering: Layering { short, long, depth }, pitch, remainder } = self;
         let (half, image) = (pitch.map(|p| 0.5 * p), (long - short) / PI);
         let below = |x: f64, y: f64| image / (x * x + y * y + depth * depth).sqrt();
@@ -216,7 +216,7 @@ mod tests {
         let harmonics = |q: f64| 2.0 / q * (short + half * ((-q * depth).exp() + (-1.5 * q * depth).exp()));
         for pitch in [[1.0, 1.0], [0.01, 0.02], [0.3, 40.0], [1e3, 2e3]] {
             let influence = layering.influence(harmonics, pitch);
-            let own = influence.at(0.0, 0.0);
+            let own = influence.displacement(0.0, 0.0);
             for cells in [[0.0, 0.0], [1.0, 0.0], [0.0, 7.0], [14.0, 15.0], [300.0, 20.0], [0.0, 1e7]] {
                 let [x, y] = [0, 1].map(|axis| cells[axis] * pitch[axis]);
                 let seen_at = |z: f64| {
@@ -230,7 +230,7 @@ mod tests {
                 };
                 let exact = short * normal_displacement(x, y, pitch, 1.0)
                     + half / PI * (seen_at(depth) + seen_at(1.5 * depth));
-                let error = influence.at(x, y) - exact;
+                let error = influence.displacement(x, y) - exact;
                 assert!(error.abs() < 1e-11 * own, "{pitch:?}, {cells:?}: {:e}", error / own);
             }
         }

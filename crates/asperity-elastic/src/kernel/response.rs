@@ -50,16 +50,16 @@ pub trait Response: Debug + Send + Sync {
 /// Normal displacement around a loaded cell centred at the origin.
 pub trait Influence: Send + Sync {
     /// Returns the displacement at `(x, y)` per unit pressure on the cell, m/Pa; it is even in x and in y.
-    fn at(&self, x: Metre, y: Metre) -> f64;
+    fn displacement(&self, x: Metre, y: Metre) -> f64;
 
     /// Returns the displacements of all cells `[i, j]` at the offsets `(i Δx, j Δy)`, m/Pa.
     fn table(&self, shape: [usize; 2], pitch: [Metre; 2]) -> Field {
-        parallel::field(shape, |i, j| self.at(i as f64 * pitch[0], j as f64 * pitch[1]))
+        parallel::field(shape, |i, j| self.displacement(i as f64 * pitch[0], j as f64 * pitch[1]))
     }
 }
 
 impl<F: Fn(Metre, Metre) -> f64 + Send + Sync> Influence for F {
-    fn at(&self, x: Metre, y: Metre) -> f64 {
+    fn displacement(&self, x: Metre, y: Metre) -> f64 {
         self(x, y)
     }
 }

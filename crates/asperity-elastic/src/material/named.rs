@@ -33,7 +33,7 @@ pub struct NamedMaterial {
 
 impl NamedMaterial {
     /// Returns the material of this name.
-    pub fn of(name: &str) -> Option<&'static Self> {
+    pub fn from_name(name: &str) -> Option<&'static Self> {
         MATERIALS.iter().find(|material| material.name == name)
     }
 
@@ -302,7 +302,7 @@ mod tests {
             let name = material.name;
             assert!(material.elastic().is_ok() && material.source.len() > 10, "{name}");
             assert!(MATERIALS[..index].iter().all(|other| other.name != name), "{name} is there twice");
-            assert_eq!(NamedMaterial::of(name), Some(material));
+            assert_eq!(NamedMaterial::from_name(name), Some(material));
             assert!(within(exists::YOUNG, Some(material.young)), "{name}");
             assert!(within(exists::HARDNESS, material.hardness), "{name}");
             assert!(within(exists::CONDUCTIVITY, material.conductivity), "{name}");

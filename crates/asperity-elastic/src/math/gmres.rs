@@ -75,7 +75,7 @@ pub fn gmres<T: Precision + Into<f64>>(
     }
     let weights: Vec<T> = turned[..products].iter().copied().map(number).collect();
     let mut solution = vec![T::zero(); basis[0].len()];
-    let bands = Bands::of([solution.len(), 1]);
+    let bands = Bands::new([solution.len(), 1]);
     parallel::map(bands.cut_mut(&mut solution).enumerate(), |(band, solution)| {
         for (v, y) in basis.iter().zip(&weights) {
             let v = &v[bands.first(band)..];
@@ -89,7 +89,7 @@ pub fn gmres<T: Precision + Into<f64>>(
 /// with another vector, or with itself.
 fn subtract<T: Precision + Into<f64>>(next: &mut [T], multiple: f64, v: &[T], other: Option<&[T]>) -> f64 {
     let multiple = number::<T>(multiple);
-    let bands = Bands::of([next.len(), 1]);
+    let bands = Bands::new([next.len(), 1]);
     let parts = bands.cut_mut(next).zip(bands.cut(v)).enumerate();
     let sums = parallel::map(parts, |(band, (next, v))| {
         next.iter_mut().zip(v).for_each(|(next, v)| *next = *next - multiple * *v);
@@ -104,7 +104,7 @@ fn subtract<T: Precision + Into<f64>>(next: &mut [T], multiple: f64, v: &[T], ot
 
 /// Returns the scalar product of two vectors.
 fn dot<T: Precision + Into<f64>>(a: &[T], b: &[T]) -> f64 {
-    let bands = Bands::of([a.len(), 1]);
+    let bands = Bands::new([a.len(), 1]);
     parallel::map(bands.cut(a).zip(bands.cut(b)), |(a, b)| dot_in_band(a, b)).iter().sum()
 }
 
@@ -119,7 +119,7 @@ fn norm<T: Precision + Into<f64>>(a: &[T]) -> f64 {
 
 fn times<T: Precision>(factor: f64, mut a: Vec<T>) -> Vec<T> {
     let factor = number::<T>(factor);
-    let bands = Bands::of([a.len(), 1]);
+    let bands = Bands::new([a.len(), 1]);
     parallel::map(bands.cut_mut(&mut a), |a| a.iter_mut().for_each(|a| *a = factor * *a));
     a
 }

@@ -85,7 +85,7 @@ impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Operator for Compliant<
             CellValues::Uniform(compliance) => own.map(|own| own + compliance),
             CellValues::Field(compliance) => {
                 let mut cells = compliance.clone();
-                cells.iter_mut().enumerate().for_each(|(cell, value)| *value += own.at(cell));
+                cells.iter_mut().enumerate().for_each(|(cell, value)| *value += own.value(cell));
                 cells.into()
             }
         }

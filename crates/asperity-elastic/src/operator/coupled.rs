@@ -76,7 +76,7 @@ impl CoupledOperator for CoupledSum {
     }
 
     fn self_influence(&self) -> Coefficients {
-        self.table.at([0, 0], [0, 0])
+        self.table.coefficients([0, 0], [0, 0])
     }
 
     fn normal(&mut self) -> &mut dyn Operator {
@@ -92,7 +92,7 @@ impl CoupledOperator for CoupledSum {
                 continue;
             }
             for to in ndarray::indices(shape) {
-                let matrix = self.table.at(to.into(), from.into()).matrix();
+                let matrix = self.table.coefficients(to.into(), from.into()).matrix();
                 for (field, row) in displacement.iter_mut().zip(matrix) {
                     if let Some(field) = field {
                         field[to] += row[0] * loads[0] + row[1] * loads[1] + row[2] * loads[2];

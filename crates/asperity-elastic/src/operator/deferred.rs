@@ -33,7 +33,7 @@ impl Deferred {
     fn own_influence(&self) -> f64 {
         let Definition { grid, boundary, response, .. } = &self.definition;
         if !boundary.leaves_mean_free() {
-            return self.definition.influence().at(0.0, 0.0);
+            return self.definition.influence().displacement(0.0, 0.0);
         }
         // The mean of the displacements of all harmonics, of which those beyond half of the axis y mirror the
         // others.

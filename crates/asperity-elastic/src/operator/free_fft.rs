@@ -120,7 +120,7 @@ impl Operator for FreeFft {
 
     fn influence(&self, i: usize, j: usize) -> f64 {
         let [dx, dy] = self.grid.pitch;
-        self.influence.at(i as f64 * dx, j as f64 * dy)
+        self.influence.displacement(i as f64 * dx, j as f64 * dy)
     }
 
     fn apply(&mut self, pressure: &Field, displacement: &mut Field) {

@@ -43,18 +43,18 @@ impl Bounds {
 
     /// Whether a cell at `pressure` is in contact: above its lower bound.
     pub fn touches(&self, cell: usize, pressure: Pascal) -> bool {
-        pressure > self.lower.at(cell)
+        pressure > self.lower.value(cell)
     }
 
     /// Whether a cell at `pressure` is capped: at its upper bound, and above its lower bound.
     pub fn caps(&self, cell: usize, pressure: Pascal) -> bool {
-        pressure >= self.upper.at(cell) && self.touches(cell, pressure)
+        pressure >= self.upper.value(cell) && self.touches(cell, pressure)
     }
 
     /// Returns the bounds of a flat `cell`.
     #[inline]
-    pub(super) fn at(&self, cell: usize) -> Interval {
-        Interval { lower: self.lower.at(cell), upper: self.upper.at(cell) }
+    pub(super) fn interval(&self, cell: usize) -> Interval {
+        Interval { lower: self.lower.value(cell), upper: self.upper.value(cell) }
     }
 
     /// Returns the bounds of all cells, if they are uniform.
@@ -93,7 +93,7 @@ impl Bounds {
             None => shape[0] * shape[1],
         };
         for cell in 0..cells {
-            let Interval { lower, upper } = self.at(cell);
+            let Interval { lower, upper } = self.interval(cell);
             let (what, expected) = match lower {
                 0.0 => ("hardness", "a hardness above 0"),
                 _ => ("upper bound", "a pressure above the lower bound"),
@@ -143,7 +143,7 @@ macro_rules! with_bounds {
                 $do
             }
             None => {
-                let $of = |cell: usize| bounds.at(cell);
+                let $of = |cell: usize| bounds.interval(cell);
                 $do
             }
         }
@@ -162,7 +162,7 @@ mod tests {
         let bounds = Bounds::up_to(upper).above(-1.0);
         assert!(!bounds.touches(0, -1.0) && bounds.touches(0, -0.5) && bounds.touches(2, 0.0));
         assert!(bounds.caps(0, 1.0) && !bounds.caps(1, 1.0) && bounds.caps(1, 2.0));
-        assert_eq!(bounds.at(2), Interval { lower: -1.0, upper: 3.0 });
+        assert_eq!(bounds.interval(2), Interval { lower: -1.0, upper: 3.0 });
         assert_eq!(bounds.uniform(), None);
     }
 

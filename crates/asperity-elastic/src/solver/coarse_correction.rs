@@ -221,7 +221,7 @@ impl Bilinear {
                 }
                 continue;
             }
-            let sets = &sets.of()[row * columns..][..columns];
+            let sets = &sets.by_cell()[row * columns..][..columns];
             for (node, columns) in &self.between {
                 let (first, rise) = (line[*node], line[*node + 1] - line[*node]);
                 let cells = values[columns.clone()].iter_mut().zip(&sets[columns.clone()]);
@@ -297,7 +297,7 @@ impl Bilinear {
                 Some(values) => &values[own],
                 None => {
                     ones.clear();
-                    ones.extend(sets.of()[own].iter().map(|set| f32::from(u8::from(*set == Set::Free))));
+                    ones.extend(sets.by_cell()[own].iter().map(|set| f32::from(u8::from(*set == Set::Free))));
                     &ones
                 }
             };

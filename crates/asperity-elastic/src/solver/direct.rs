@@ -68,7 +68,8 @@ impl Problem<'_> {
 
     /// Returns the set of each cell under a pressure.
     fn sets_of(&self, pressure: &Field) -> Array2<Set> {
-        let sets = pressure.iter().enumerate().map(|(cell, p)| Set::of(*p, self.bounds.at(cell)));
+        let sets =
+            pressure.iter().enumerate().map(|(cell, p)| Set::from_pressure(*p, self.bounds.interval(cell)));
         Array2::from_shape_vec(pressure.raw_dim(), sets.collect()).expect("a set for each cell")
     }
 
@@ -80,8 +81,8 @@ impl Problem<'_> {
     /// Returns the pressure of the cells at their bounds, and 0 for free cells.
     fn pressure_at_bounds(&self, sets: &Array2<Set>) -> Field {
         let at_bound = |(cell, set): (usize, &Set)| match set {
-            Set::Lower => self.bounds.at(cell).lower,
-            Set::Upper => self.bounds.at(cell).upper,
+            Set::Lower => self.bounds.interval(cell).lower,
+            Set::Upper => self.bounds.interval(cell).upper,
             Set::Free => 0.0,
         };
         let pressures = sets.iter().enumerate().map(at_bound).collect();
@@ -136,7 +137,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             let mut next = sets.clone();
             let mut wrong = Vec::new();
             for (cell, (index, set)) in next.indexed_iter_mut().enumerate() {
-                let (p, bounds) = (pressure[index], self.problem.bounds.at(cell));
+                let (p, bounds) = (pressure[index], self.problem.bounds.interval(cell));
                 let interference = approach - self.problem.initial_gap[index];
                 let w = interference - displacement[index];
                 let tiny_w = ROUNDING * interference.abs().max(most_u);
@@ -160,7 +161,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
                     let given_up = given_up.is_some();
                     let mut pressure = pressure;
                     let cells = pressure.iter_mut().enumerate();
-                    cells.for_each(|(cell, p)| *p = self.problem.bounds.at(cell).clamp(*p));
+                    cells.for_each(|(cell, p)| *p = self.problem.bounds.interval(cell).clamp(*p));
                     if given_up {
                         self.convolve(&pressure, &mut displacement);
                     }
@@ -200,8 +201,9 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         let found = self.between_bounds(mean_gap, sets);
         self.stiffening = 0.0;
         let (pressure, _) = found?;
-        let way =
-            |cell: usize, p: f64| if rises { bounds.at(cell).upper - p } else { p - bounds.at(cell).lower };
+        let way = |cell: usize, p: f64| {
+            if rises { bounds.interval(cell).upper - p } else { p - bounds.interval(cell).lower }
+        };
         let ways = pressure.indexed_iter().enumerate().map(|(cell, (index, p))| (index, way(cell, *p)));
         let nearest = ways.min_by(|a, b| a.1.total_cmp(&b.1));
         sets[nearest.expect("a cell").0] = set;
@@ -238,7 +240,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         let width = sets.ncols();
         let coefficient = |a: (usize, usize), b: (usize, usize)| {
             let influence = if a == b {
-                self.self_influence.at(a.0 * width + a.1)
+                self.self_influence.value(a.0 * width + a.1)
             } else {
                 self.influence[[a.0.abs_diff(b.0), a.1.abs_diff(b.1)]]
             };

@@ -213,7 +213,7 @@ impl Solution {
     pub fn elastic_cells(&self) -> Array2<bool> {
         let mut cells = self.pressure.iter().enumerate();
         Array2::from_shape_simple_fn(self.pressure.raw_dim(), || {
-            cells.next().is_some_and(|(cell, p)| self.bounds.at(cell).is_free(*p))
+            cells.next().is_some_and(|(cell, p)| self.bounds.interval(cell).is_free(*p))
         })
     }
 

@@ -52,7 +52,7 @@ pub(super) fn solve(
         if state.eta < params.tolerance {
             // A cell that differs from its upper bound only by rounding is at the bound.
             for (cell, p) in pressure.iter_mut().enumerate() {
-                let upper = bounds.at(cell).upper;
+                let upper = bounds.interval(cell).upper;
                 *p = if upper - *p < ROUNDING * upper { upper } else { *p };
             }
             return Ok(Answer {
@@ -77,7 +77,7 @@ pub(super) fn solve(
             (damping, least_at) = (DAMPING * damping, stats.convolutions);
         }
         let is_free: Vec<bool> =
-            pressure.iter().enumerate().map(|(cell, p)| bounds.at(cell).is_free(*p)).collect();
+            pressure.iter().enumerate().map(|(cell, p)| bounds.interval(cell).is_free(*p)).collect();
         if !is_free.contains(&true) {
             // All cells are at bounds, but not in equilibrium: one damped diagonal step along the gap frees
             // some.
@@ -110,7 +110,7 @@ pub(super) fn solve(
         let step = damping * if curvature > 0.0 { slope / curvature } else { 1.0 / settings.self_influence };
         let mut reentered = false;
         for (cell, ((p, t), g)) in pressure.iter_mut().zip(&direction).zip(&gap).enumerate() {
-            let bounds = bounds.at(cell);
+            let bounds = bounds.interval(cell);
             *p = bounds.clamp(*p - step * t);
             if (*p == bounds.lower && *g < 0.0) || (*p == bounds.upper && *g > 0.0) {
                 *p -= step * g;

@@ -62,7 +62,7 @@ impl Preconditioner {
     pub(super) fn new(operator: &dyn Operator) -> Self {
         let slab = operator.slab();
         let halo = slab.halo(ROWS_ABOVE);
-        let bands = Bands::of(halo.shape());
+        let bands = Bands::new(halo.shape());
         let count = bands.rows().len();
         Self {
             around: (!slab.is_whole()).then(|| SlabWithNeighbours::new(halo.shape())),
@@ -110,7 +110,7 @@ impl Preconditioner {
                 }
                 // If many cells are free, it is faster to compute the patterns of all.
                 let row = |back: usize| match ix.checked_sub(back).or_else(|| sparse.row_before(ix, back)) {
-                    Some(row) => &sets.of()[row * columns..][..columns],
+                    Some(row) => &sets.by_cell()[row * columns..][..columns],
                     None => &[],
                 };
                 dense.clear();
@@ -130,7 +130,7 @@ impl Preconditioner {
     /// The other cells have z = 0. Returns the sums Σ z, Σ r and Σ r z over the free cells.
     pub(super) fn apply(&mut self, sets: &Sets, r: impl Fn(usize) -> f32 + Sync, z: &mut [f32]) -> [f64; 3] {
         let bands = sets.bands();
-        let parts = bands.cut_mut(z).zip(bands.cut(sets.of())).enumerate();
+        let parts = bands.cut_mut(z).zip(bands.cut(sets.by_cell())).enumerate();
         parallel::map(parts, |(band, (z, sets))| {
             let first = bands.first(band);
             let cells = z.iter_mut().zip(sets).enumerate();

@@ -52,8 +52,8 @@ pub fn residual(
                 bounds: of(cell),
             })
         };
-        let approach = approach.unwrap_or_else(|| Multiplier::of(cells()).approach());
-        ResidualSums::of(cells(), approach, self_influence).residual(approach, self_influence)
+        let approach = approach.unwrap_or_else(|| Multiplier::new(cells()).approach());
+        ResidualSums::new(cells(), approach, self_influence).residual(approach, self_influence)
     })
 }
 
@@ -90,7 +90,7 @@ pub(super) struct Multiplier {
 }
 
 impl Multiplier {
-    pub(super) fn of(cells: impl Iterator<Item = Cell>) -> Self {
+    pub(super) fn new(cells: impl Iterator<Item = Cell>) -> Self {
         let mut this = Self { weight: 0.0, moment: 0.0, max_capped: f64::NEG_INFINITY };
         for Cell { pressure: p, touch, bounds, .. } in cells {
             if bounds.is_free(p) {
@@ -149,7 +149,7 @@ pub(super) struct ResidualSums {
 
 impl ResidualSums {
     /// Computes the sums of some cells at an approach.
-    pub(super) fn of(cells: impl Iterator<Item = Cell>, approach: Metre, self_influence: f64) -> Self {
+    pub(super) fn new(cells: impl Iterator<Item = Cell>, approach: Metre, self_influence: f64) -> Self {
         let mut cells = cells.peekable();
         let datum = cells.peek().map_or(0.0, |cell| cell.displacement);
         let mut lanes = Lanes::new(datum, approach, self_influence);
@@ -157,9 +157,9 @@ impl ResidualSums {
         lanes.sums()
     }
 
-    /// [`Self::of`] for the cells with these pressures, approaches h + u and gaps h, with a function for
+    /// [`Self::new`] for the cells with these pressures, approaches h + u and gaps h, with a function for
     /// their bounds. It is faster.
-    pub(super) fn of_fields(
+    pub(super) fn from_fields(
         [pressure, touch, gap]: [&[f64]; 3],
         bounds: impl Fn(usize) -> Interval,
         approach: Metre,
@@ -329,7 +329,7 @@ mod tests {
     fn sums_of_parts_merge_into_those_of_the_whole() {
         let all = cells(101);
         let (approach, c0) = (7.2, 0.3);
-        let sums = |part: &[Cell]| ResidualSums::of(part.iter().copied(), approach, c0);
+        let sums = |part: &[Cell]| ResidualSums::new(part.iter().copied(), approach, c0);
         let whole = sums(&all);
         let mean = all.iter().map(|cell| cell.displacement).sum::<f64>() / 101.0;
         let squares: f64 = all.iter().map(|cell| (cell.displacement - mean).powi(2)).sum();
@@ -340,9 +340,9 @@ mod tests {
             assert!((merged.squares / squares - 1.0).abs() < 1e-9, "{split}: {merged:?}");
             let [one, other] = [merged, whole].map(|sums| sums.residual(approach, c0));
             assert!((one.eta / other.eta - 1.0).abs() < 1e-9 && (one.scale / other.scale - 1.0).abs() < 1e-9);
-            let parts = [&all[..split], &all[split..]].map(|part| Multiplier::of(part.iter().copied()));
+            let parts = [&all[..split], &all[split..]].map(|part| Multiplier::new(part.iter().copied()));
             let merged = parts[0].and(parts[1]).approach();
-            assert!((merged / Multiplier::of(all.iter().copied()).approach() - 1.0).abs() < 1e-14);
+            assert!((merged / Multiplier::new(all.iter().copied()).approach() - 1.0).abs() < 1e-14);
         }
     }
 
@@ -350,7 +350,7 @@ mod tests {
     fn the_residual_is_zero_in_equilibrium_at_either_bound_and_between() {
         let bounds = Interval { lower: -1.0, upper: 2.0 };
         let cell = |pressure, touch| Cell { pressure, displacement: touch, touch, bounds };
-        let eta = |cells: &[Cell]| ResidualSums::of(cells.iter().copied(), 5.0, 0.5).residual(5.0, 0.5).eta;
+        let eta = |cells: &[Cell]| ResidualSums::new(cells.iter().copied(), 5.0, 0.5).residual(5.0, 0.5).eta;
         assert_eq!(eta(&[cell(-1.0, 5.5), cell(0.3, 5.0), cell(2.0, 4.0)]), 0.0);
         for wrong in [cell(-1.0, 4.9), cell(0.3, 5.1), cell(2.0, 5.1)] {
             assert!(eta(&[wrong, cell(0.3, 5.0), cell(2.0, 4.0)]) > 0.05, "{}", wrong.touch);

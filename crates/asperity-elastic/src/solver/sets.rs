@@ -20,7 +20,7 @@ pub(super) enum Set {
 
 impl Set {
     /// Returns the set of a cell with this pressure, which may lie beyond a bound.
-    pub(super) fn of(pressure: Pascal, bounds: Interval) -> Self {
+    pub(super) fn from_pressure(pressure: Pascal, bounds: Interval) -> Self {
         match pressure {
             p if p <= bounds.lower => Self::Lower,
             p if p >= bounds.upper => Self::Upper,
@@ -48,7 +48,7 @@ pub(super) struct FreeCells {
 
 impl Sets {
     pub(super) fn new(shape: [usize; 2]) -> Self {
-        let bands = Bands::of(shape);
+        let bands = Bands::new(shape);
         let free = |rows: Range<usize>| FreeCells { cells: Vec::new(), before: vec![0; rows.len() + 1] };
         Self { bands, of: vec![Set::Lower; shape[0] * shape[1]], free: bands.rows().map(free).collect() }
     }
@@ -63,7 +63,7 @@ impl Sets {
         with_bounds!(bounds, of => {
             self.put(|cells| {
                 let first = cells.start;
-                pressures(cells).enumerate().map(move |(cell, p)| Set::of(p, of(first + cell)))
+                pressures(cells).enumerate().map(move |(cell, p)| Set::from_pressure(p, of(first + cell)))
             });
         });
     }
@@ -91,7 +91,7 @@ impl Sets {
     }
 
     /// The set of each cell.
-    pub(super) fn of(&self) -> &[Set] {
+    pub(super) fn by_cell(&self) -> &[Set] {
         &self.of
     }
 
@@ -158,7 +158,7 @@ mod tests {
         let pressures = [-2.0, -1.0, 3.0, 1.5, 3.5, -0.5];
         sets.assign(|cells| pressures[cells].iter().copied(), &bounds);
         let expected = [Set::Lower, Set::Lower, Set::Upper, Set::Free, Set::Upper, Set::Free];
-        assert_eq!(sets.of(), expected);
+        assert_eq!(sets.by_cell(), expected);
         assert_eq!(free(&sets), [3, 5]);
         let rows = [0, 1].map(|row| sets.row(row));
         assert_eq!(rows, [(&[][..], 0), (&[3, 5][..], 3)]);
@@ -172,7 +172,7 @@ mod tests {
         assert_eq!((sets.free_cells(), sets.row(2).0.len()), (12, 4));
         sets.free_where(|cell| cell == 6);
         assert_eq!(free(&sets), [6]);
-        assert_eq!(sets.of().iter().filter(|set| **set == Set::Lower).count(), 11);
+        assert_eq!(sets.by_cell().iter().filter(|set| **set == Set::Lower).count(), 11);
     }
 
     #[test]

@@ -90,7 +90,10 @@ fn every_method_keeps_each_cell_in_its_own_bounds_and_agrees_with_a_cell_by_cell
             let off = largest_difference(&found.pressure, &expected);
             assert!(off < 1e-7, "{n}, {method:?}: pressures differ by {off:e}");
             for (cell, p) in found.pressure.iter().enumerate() {
-                assert!(bounds.lower().at(cell) <= *p && *p <= bounds.upper().at(cell), "{n}, {method:?}");
+                assert!(
+                    bounds.lower().value(cell) <= *p && *p <= bounds.upper().value(cell),
+                    "{n}, {method:?}"
+                );
             }
             // Its load gives the same solution.
             let load = Control::Load(found.load());

@@ -239,7 +239,7 @@ impl Case {
             let q = [contact.shear[0][cell], contact.shear[1][cell]];
             let size = q[0].hypot(q[1]);
             let alpha = self.friction.junction_growth;
-            let cap = contact.normal.bounds.upper().at(i * self.shape[1] + j);
+            let cap = contact.normal.bounds.upper().value(i * self.shape[1] + j);
             hold("pressure below 0", -p, 0.0);
             hold("pressure above the hardness", p.hypot(alpha.sqrt() * size) / caps[cell] - 1.0, 1e-6);
             hold("gap", if p > 0.0 { open } else { 0.0 }, normal_error);

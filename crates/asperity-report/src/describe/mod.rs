@@ -191,13 +191,13 @@ impl Description {
 
 impl Statistics {
     fn of(topography: &Topography) -> Self {
-        let spectrum = Spectrum::of(topography, Window::Hann);
+        let spectrum = Spectrum::new(topography, Window::Hann);
         let moments = spectrum.moments();
         Self {
             moments,
             bandwidth: moments.bandwidth(),
             asperities: Asperities {
-                counted: Summits::of(topography).greenwood_williamson(),
+                counted: Summits::new(topography).greenwood_williamson(),
                 by_moments: moments.greenwood_williamson(),
             },
             self_affine: SelfAffinity::of_longest_range(&spectrum.radial(RINGS)).ok().map(Law::from),

@@ -378,7 +378,7 @@ fn parameters(results: &Results, done: &[usize]) -> Result<Charts> {
         let [lower, upper] = results.surfaces_after(pass)?;
         // The height of an underside turned over is that of the surface as it was measured.
         for (body, surface) in [lower, upper.underside()].iter().enumerate() {
-            let (height, core) = (HeightParameters::of(surface), FunctionalParameters::of(surface));
+            let (height, core) = (HeightParameters::new(surface), FunctionalParameters::new(surface));
             let values = [height.sa, height.sq, height.ssk, core.sk, core.spk, core.svk];
             for (curve, value) in curves.iter_mut().zip(values) {
                 curve[body].push([done[pass] as f64, value]);

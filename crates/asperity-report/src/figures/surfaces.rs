@@ -99,7 +99,7 @@ fn spectrum(bodies: &[(&str, &Topography)], title: &str) -> Chart {
         // A plane has none, which takes as long to find out.
         let first = body.heights()[[0, 0]];
         let is_flat = body.heights().iter().all(|z| *z == first);
-        let radial = if is_flat { Vec::new() } else { Spectrum::of(body, Window::Hann).radial(RINGS) };
+        let radial = if is_flat { Vec::new() } else { Spectrum::new(body, Window::Hann).radial(RINGS) };
         let shown = |p: &&SpectralPoint| p.wave_number > 0.0 && p.density > 0.0;
         let points = radial.iter().filter(shown).map(|p| [p.wave_number, p.density]).collect();
         Series::new(*when, points, mark(when))

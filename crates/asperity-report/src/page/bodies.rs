@@ -212,7 +212,7 @@ fn parameters(before: &[Topography; 2], after: Option<&[Topography; 2]>, forms: 
             continue;
         }
         let mut add = |when: &str, body: &Topography| {
-            columns.push((format!("{title}{when}"), Parameters::of(body).rows()));
+            columns.push((format!("{title}{when}"), Parameters::new(body).rows()));
         };
         match figures::changed(before, after, index) {
             None => add("", &before[index]),

@@ -30,7 +30,7 @@ fn heights(bytes: &[u8]) -> Result<([f64; 2], Field), Defect> {
         let units = header.as_chunks().0.iter().map(|unit| u16::from_le_bytes(*unit));
         char::decode_utf16(units).map(|character| character.unwrap_or('\u{fffd}')).collect()
     };
-    let header = Header::of(&text, '=');
+    let header = Header::new(&text, '=');
     if let Some(current @ "1") = header.get("current") {
         let found = current.to_owned();
         return Err(Defect::Value { what: "current", found, expected: "0: heights" });

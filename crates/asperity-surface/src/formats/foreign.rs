@@ -10,7 +10,7 @@ pub(super) struct Foreign {
 }
 
 impl Foreign {
-    pub(super) const fn of(reason: &'static str) -> Self {
+    pub(super) const fn new(reason: &'static str) -> Self {
         Self { reason, export: "" }
     }
 
@@ -32,17 +32,17 @@ const KEYENCE: Foreign = Foreign::exported(
     "export its heights as CSV from the program of the instrument",
 );
 const OLYMPUS: Foreign = Foreign::exported("it is a file of an Olympus microscope (oir, poir)", GWYDDION);
-const WITHOUT_TIFF: Foreign = Foreign::of("it is TIFF, and the feature `tiff` is left out");
+const WITHOUT_TIFF: Foreign = Foreign::new("it is TIFF, and the feature `tiff` is left out");
 
 /// First bytes of kinds of files. Formats that are read come first: a kind here is an unsupported version, or
 /// another one.
 const BY_START: &[(&[u8], Foreign)] = &[
-    (b"FRTM_GLIDER", Foreign::of("it is an FRT file of another version than 1.00")),
-    (b"Binary TrueMap Data File", Foreign::of("it is a TrueMap file of another version than 2.0")),
-    (b"CDF", Foreign::of("it is NetCDF of another version than 1 and 2")),
-    (b"\x0e\x03\x13\x01", Foreign::of("it is HDF4")),
-    (b"\\*Force file list", Foreign::of("it is a force curve of NanoScope")),
-    (b"?*File list", Foreign::of("it is a NanoScope file in text")),
+    (b"FRTM_GLIDER", Foreign::new("it is an FRT file of another version than 1.00")),
+    (b"Binary TrueMap Data File", Foreign::new("it is a TrueMap file of another version than 2.0")),
+    (b"CDF", Foreign::new("it is NetCDF of another version than 1 and 2")),
+    (b"\x0e\x03\x13\x01", Foreign::new("it is HDF4")),
+    (b"\\*Force file list", Foreign::new("it is a force curve of NanoScope")),
+    (b"?*File list", Foreign::new("it is a NanoScope file in text")),
     (b"GWYO", Foreign::exported("it is a file of Gwyddion 1", "save it with Gwyddion 2")),
     (b"KPK0", KEYENCE),
     (b"KPK1", KEYENCE),
@@ -62,9 +62,9 @@ const BY_START: &[(&[u8], Foreign)] = &[
     (b"BM", Foreign::exported("it is a picture (BMP)", PICTURE)),
     (b"<svg", Foreign::exported("it is a picture (SVG)", PICTURE)),
     (b"%PDF", Foreign::exported("it is a document (PDF)", PICTURE)),
-    (b"{\\rtf", Foreign::of("it is a document (RTF)")),
-    (b"<!DOCTYPE", Foreign::of("it is a page (HTML)")),
-    (b"<html", Foreign::of("it is a page (HTML)")),
+    (b"{\\rtf", Foreign::new("it is a document (RTF)")),
+    (b"<!DOCTYPE", Foreign::new("it is a page (HTML)")),
+    (b"<html", Foreign::new("it is a page (HTML)")),
     (b"<?xml", Foreign::exported("it is XML", "of an x3p give the whole file, not what is in it")),
     (b"ply\n", Foreign::exported("it is a mesh (PLY)", MESH)),
     (b"ply\r", Foreign::exported("it is a mesh (PLY)", MESH)),
@@ -74,16 +74,16 @@ const BY_START: &[(&[u8], Foreign)] = &[
     (b"\xfd7zXZ", Foreign::exported("it is packed (xz)", UNPACK)),
     (b"BZh", Foreign::exported("it is packed (bzip2)", UNPACK)),
     (b"(\xb5/\xfd", Foreign::exported("it is packed (zstd)", UNPACK)),
-    (b"PK\x05\x06", Foreign::of("it is an empty zip archive")),
-    (b"PK\x03\x04", Foreign::of("it is a zip archive, and the feature `zip` is left out")),
-    (b"\x89HDF\r\n\x1a\n", Foreign::of("it is HDF5, and the feature `hdf5` is left out")),
+    (b"PK\x05\x06", Foreign::new("it is an empty zip archive")),
+    (b"PK\x03\x04", Foreign::new("it is a zip archive, and the feature `zip` is left out")),
+    (b"\x89HDF\r\n\x1a\n", Foreign::new("it is HDF5, and the feature `hdf5` is left out")),
     (b"II*\0", WITHOUT_TIFF),
     (b"MM\0*", WITHOUT_TIFF),
     (b"II+\0", WITHOUT_TIFF),
     (b"MM\0+", WITHOUT_TIFF),
     (
         b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
-        Foreign::of("it is a compound file, and the feature `compound` is left out"),
+        Foreign::new("it is a compound file, and the feature `compound` is left out"),
     ),
 ];
 
@@ -152,7 +152,7 @@ pub(super) fn kind_of_archive(names: &[impl AsRef<str>]) -> Foreign {
         return Foreign::exported("it is a workbook of Excel (xlsx)", SHEET);
     }
     if in_folder("word/") || in_folder("ppt/") {
-        return Foreign::of("it is a document of Office (docx, pptx)");
+        return Foreign::new("it is a document of Office (docx, pptx)");
     }
     if has("mimetype") && has("content.xml") {
         return Foreign::exported("it is a document of LibreOffice (ods, odt)", SHEET);
@@ -169,7 +169,7 @@ pub(super) fn kind_of_compound(has: impl Fn(&str) -> bool) -> Foreign {
     if has("/Workbook") || has("/Book") {
         return Foreign::exported("it is a workbook of Excel (xls)", SHEET);
     }
-    Foreign::of("it is a compound file, but no document of Mountains")
+    Foreign::new("it is a compound file, but no document of Mountains")
 }
 
 /// Returns the maker of a TIFF with private tags, whose pages are no heights without these.

@@ -42,7 +42,7 @@ impl File {
         let end =
             bytes.iter().position(|byte| *byte == 0).ok_or(Defect::Missing("zero behind the header"))?;
         let text = String::from_utf8_lossy(&bytes[..end]);
-        let header = Header::of(&text, '=');
+        let header = Header::new(&text, '=');
         let sizes = [header.size("XRes")?, header.size("YRes")?];
         let shape = shape(sizes)?;
         let unit = |name| header.get(name).filter(|unit| !unit.is_empty()).map(unit_of_length).transpose();

@@ -45,7 +45,7 @@ pub(super) fn decode(text: &str, channel: Option<&str>) -> Option<Decoded> {
 }
 
 fn spip(text: &str) -> Result<Heights, Defect> {
-    let header = Header::of(head(text), '=');
+    let header = Header::new(head(text), '=');
     let lines = Lines::read(text, 0, Some([header.size("x-pixels")?, header.size("y-pixels")?]))?;
     let nanometres = [header.number("x-length")?, header.number("y-length")?];
     let unit = header.get("z-unit").unwrap_or("nm").trim_matches(['[', ']']);
@@ -53,7 +53,7 @@ fn spip(text: &str) -> Result<Heights, Defect> {
 }
 
 fn gwyddion(text: &str) -> Result<Heights, Defect> {
-    let header = Header::of(head(text), ':');
+    let header = Header::new(head(text), ':');
     let unit = header.get("Value units").ok_or(Defect::Missing("Value units"))?;
     let lengths = [header.length("Width")?, header.length("Height")?];
     let channel = header.get("Channel").unwrap_or(ONLY_CHANNEL);
@@ -64,7 +64,7 @@ fn koala(text: &str) -> Result<Heights, Defect> {
     const LINES: usize = 4;
     let heights = Part::after(text, LINES).text;
     let head = text[..text.len() - heights.len()].replace(" w=", "\nw=");
-    let header = Header::of(&head, '=');
+    let header = Header::new(&head, '=');
     let [nx, ny] = [header.size("w")?, header.size("h")?];
     let pixel = header.get("pixel size").ok_or(Defect::Missing("pixel size"))?;
     let pixel: f64 = pixel.trim_end_matches('m').trim().parse().map_err(|_| Defect::Value {

@@ -11,7 +11,7 @@ pub(super) struct Header<'a>(HashMap<String, &'a str>);
 
 impl<'a> Header<'a> {
     /// Reads the lines of `text` with a name before the first `separator`; a `#` before the name is skipped.
-    pub(super) fn of(text: &'a str, separator: char) -> Self {
+    pub(super) fn new(text: &'a str, separator: char) -> Self {
         let lines = text.lines().filter_map(|line| line.trim_start_matches('#').split_once(separator));
         Self(lines.map(|(name, value)| (name.trim().to_ascii_lowercase(), before_comment(value))).collect())
     }

@@ -18,7 +18,7 @@ pub(super) struct Unlabelled {
 
 impl Unlabelled {
     /// Removes the labels of `lines`: words beside it, and evenly spaced numbers above and beside a matrix.
-    pub(super) fn of(lines: Field, preamble: &Preamble<'_>) -> Result<Self, Defect> {
+    pub(super) fn from_lines(lines: Field, preamble: &Preamble<'_>) -> Result<Self, Defect> {
         let (rows, columns) = lines.dim();
         if preamble.has_labels {
             return Ok(Self { matrix: below_words(lines), pitch: None, had_labels: true });

@@ -50,7 +50,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
 #[cfg(not(feature = "hdf5"))]
 fn hierarchical(_: &[u8], _: Option<&str>) -> Decoded {
     let reason = "it is HDF5 by MATLAB 7.3, and the feature `hdf5` is left out";
-    Err(Fault::NotATopography(super::foreign::Foreign::of(reason)))
+    Err(Fault::NotATopography(super::foreign::Foreign::new(reason)))
 }
 
 /// Reads version 7.3.

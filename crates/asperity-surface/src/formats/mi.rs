@@ -46,7 +46,7 @@ fn channels(bytes: &[u8]) -> Result<Vec<Channel<'_>>, Defect> {
         *part += &format!("{name}: {value}\n");
     };
     let (file, buffers) = parts.split_first().expect("there is the first");
-    let file = Header::of(file, ':');
+    let file = Header::new(file, ':');
     if let Some(found) = file.get("fileType").filter(|kind| *kind != "Image") {
         return Err(Defect::Value { what: "fileType", found: excerpt(found), expected: "Image" });
     }
@@ -65,7 +65,7 @@ fn channels(bytes: &[u8]) -> Result<Vec<Channel<'_>>, Defect> {
     for buffer in buffers {
         let raster = Raster::new(shape, number, Order::Little, rest)?;
         rest = &rest[raster.bytes()..];
-        let buffer = Header::of(buffer, ':');
+        let buffer = Header::new(buffer, ':');
         let Ok(unit) = unit_of_length(buffer.get("bufferUnit").unwrap_or_default()) else { continue };
         let step = buffer.number("bufferRange")? / largest * unit;
         channels.push(Channel {

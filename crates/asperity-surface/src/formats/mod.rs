@@ -350,7 +350,7 @@ fn decode_plain(bytes: &[u8], options: &ReadOptions) -> Decoded {
         (&[hdf5::MAGIC], hdf5::decode),
     ];
     if bytes.is_empty() {
-        return Err(Fault::NotATopography(Foreign::of("it is empty")));
+        return Err(Fault::NotATopography(Foreign::new("it is empty")));
     }
     let starts_with = |magics: &[&[u8]]| magics.iter().any(|magic| bytes.starts_with(magic));
     let known = READ.iter().find(|(magics, _)| starts_with(magics)).map(|(_, decode)| *decode);
@@ -370,7 +370,7 @@ fn decode_plain(bytes: &[u8], options: &ReadOptions) -> Decoded {
     }
     match io::text::decode(bytes) {
         Some(text) => decode_text(&text, options),
-        None => Err(Fault::NotATopography(Foreign::of("it is binary, of no known format"))),
+        None => Err(Fault::NotATopography(Foreign::new("it is binary, of no known format"))),
     }
 }
 

@@ -35,7 +35,7 @@ fn channels(bytes: &[u8]) -> Outcome<Vec<Channel<'_>>> {
     let header = text(&bytes[..end]);
     let parts = sections(&header);
     let part =
-        |name: &str| parts.iter().find(|(other, _)| *other == name).map(|(_, part)| Header::of(part, '='));
+        |name: &str| parts.iter().find(|(other, _)| *other == name).map(|(_, part)| Header::new(part, '='));
 
     let mut channels = Vec::new();
     for name in data_sets(parts.first().map_or("", |(_, part)| part)) {

@@ -50,7 +50,7 @@ pub(super) fn matrix(part: Part<'_>, has_labels: bool) -> Result<Field, Defect> 
     let mut separator = None;
     let mut rows_that_end_with_nothing = 0;
     for (number, line) in part.lines() {
-        let separator = *separator.get_or_insert_with(|| Separator::of(line));
+        let separator = *separator.get_or_insert_with(|| Separator::from_line(line));
         let before = values.len();
         let mut token = "";
         for next in separator.split(line).skip(usize::from(has_labels)) {
@@ -93,7 +93,7 @@ pub(super) enum Separator {
 
 impl Separator {
     /// Determines the separator of the values in `line`.
-    pub(super) fn of(line: &str) -> Self {
+    pub(super) fn from_line(line: &str) -> Self {
         let one_each = |part: &str| part.split_whitespace().count() <= 1;
         if line.contains(';') {
             return Self::Semicolon;

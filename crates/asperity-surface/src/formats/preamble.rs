@@ -70,7 +70,7 @@ impl<'a> Preamble<'a> {
 
     /// Reads names or labels from the last line above so many columns of numbers.
     fn read_last(&mut self, columns: usize) -> Result<(), Defect> {
-        let separator = Separator::of(self.last.1);
+        let separator = Separator::from_line(self.last.1);
         let mut fields: Vec<_> = fields(self.last.1).collect();
         // A separator may end every line.
         if columns > 1 && fields.len() == columns && fields.last() == Some(&"") {
@@ -133,7 +133,7 @@ fn unclear(line: usize, text: &str, first: usize) -> Defect {
 }
 
 fn not_a_number(line: usize, text: &str) -> Defect {
-    let separator = Separator::of(text);
+    let separator = Separator::from_line(text);
     let token = separator.split(text).find(|token| value(token, separator).is_none());
     Defect::NotANumber { line, token: excerpt(token.unwrap_or(text)) }
 }
@@ -152,7 +152,7 @@ enum Kind {
 
 impl Kind {
     fn of(line: &str) -> Self {
-        let separator = Separator::of(line);
+        let separator = Separator::from_line(line);
         let fields: Vec<_> = separator.split(line).collect();
         let values = |fields: &[&str]| fields.iter().all(|field| value(field, separator).is_some());
         if fields.iter().all(|field| field.is_empty()) {

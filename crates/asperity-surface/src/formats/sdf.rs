@@ -177,7 +177,7 @@ fn in_text(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
     let end = parts.iter().position(|line| ends_part(line));
     let end = end.ok_or(Defect::Missing("asterisk that ends the header"))?;
     let header_text = parts[..end].concat();
-    let header = Header::of(&header_text, '=');
+    let header = Header::new(&header_text, '=');
     let shape = shape([header.size("NumPoints")?, header.size("NumProfiles")?])?;
     let dz = header.number("Zscale")?;
     let kind = vet(header.get("Compression").unwrap_or("0"), header.get("DataType").unwrap_or("7"), dz)?;

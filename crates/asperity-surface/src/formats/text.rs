@@ -68,7 +68,7 @@ fn content(preamble: &Preamble<'_>, is_matrix: bool) -> Result<Content, Defect> 
         }
         lines => lines?,
     };
-    let Unlabelled { matrix, pitch, had_labels } = Unlabelled::of(lines, preamble)?;
+    let Unlabelled { matrix, pitch, had_labels } = Unlabelled::from_lines(lines, preamble)?;
     if !is_matrix && !had_labels {
         match points(&matrix)? {
             Some(Points::Map(Raster { pitch, heights })) => {

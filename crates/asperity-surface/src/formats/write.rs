@@ -27,7 +27,7 @@ pub enum Format {
 
 impl Format {
     /// Returns the format for the extension of the file name, in any case; `None` if there is none.
-    pub fn of(path: impl AsRef<Path>) -> Option<Self> {
+    pub fn from_path(path: impl AsRef<Path>) -> Option<Self> {
         Some(match path.as_ref().extension()?.to_string_lossy().to_lowercase().as_str() {
             "npy" => Self::Npy,
             #[cfg(feature = "zip")]
@@ -55,7 +55,7 @@ impl Topography {
     pub fn write(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         let (grid, heights) = (self.grid(), self.heights());
-        match Format::of(path).ok_or_else(|| Error::NoFormat { path: path.to_owned() })? {
+        match Format::from_path(path).ok_or_else(|| Error::NoFormat { path: path.to_owned() })? {
             Format::Npy => npy::write(path, heights),
             #[cfg(feature = "zip")]
             Format::X3p => x3p::write(path, grid, heights),

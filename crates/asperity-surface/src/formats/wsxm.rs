@@ -34,7 +34,7 @@ fn heights(bytes: &[u8]) -> Result<([f64; 2], Field), Defect> {
     let parts = sections(&header);
     let part = |name| {
         let part = parts.iter().find(|(other, _)| *other == name).map_or("", |(_, part)| part);
-        Header::of(part, ':')
+        Header::new(part, ':')
     };
     let [general, control, range] = ["General Info", "Control", "Miscellaneous"].map(part);
 

@@ -143,7 +143,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let root = document.root_element();
     if root.tag_name().name() != "ISO5436_2" {
         let reason = "it is a zip archive, but its main.xml is not that of an x3p";
-        return Err(Fault::NotATopography(Foreign::of(reason)));
+        return Err(Fault::NotATopography(Foreign::new(reason)));
     }
     verify_main(&mut archive, root, &main).map_err(fault)?;
 

@@ -216,7 +216,7 @@ mod tests {
         // Standard errors √6 and √24 per independent spot, 2πβ²/(2 ln 10)² and less for higher powers of R.
         let spots = 512.0 * 512.0 * 4.605f64.powi(2) / (std::f64::consts::TAU * 36.0);
         for seed in 0..4 {
-            let parameters = HeightParameters::of(&method.generate(&grid, seed).unwrap());
+            let parameters = HeightParameters::new(&method.generate(&grid, seed).unwrap());
             assert!(parameters.ssk.abs() < 4.0 * (6.0 / spots).sqrt(), "{}", parameters.ssk);
             assert!((parameters.sku - 3.0).abs() < 4.0 * (24.0 / spots).sqrt(), "{}", parameters.sku);
         }

@@ -300,7 +300,7 @@ mod tests {
     fn heights_are_gaussian_over_a_hundred_seeds() {
         let (seeds, mut skewness, mut kurtosis) = (100, 0.0, 0.0);
         for seed in 0..seeds {
-            let parameters = HeightParameters::of(&surface([128, 128], [1.0, 1.0], method(), seed));
+            let parameters = HeightParameters::new(&surface([128, 128], [1.0, 1.0], method(), seed));
             skewness += parameters.ssk / seeds as f64;
             kurtosis += parameters.sku / seeds as f64;
         }

@@ -126,7 +126,7 @@ fn skewness_and_kurtosis_are_those_asked_for_over_a_hundred_seeds() {
     for (case, surfaces) in cases() {
         let [mut skewness, mut kurtosis] = [Sample::default(), Sample::default()];
         for surface in surfaces {
-            let parameters = HeightParameters::of(surface);
+            let parameters = HeightParameters::new(surface);
             assert!((parameters.sq - 1.0).abs() < 1e-12 && surface.mean().abs() < 1e-13, "{}", case.name);
             skewness.add(parameters.ssk);
             kurtosis.add(parameters.sku);

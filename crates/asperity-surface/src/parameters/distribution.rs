@@ -50,7 +50,7 @@ impl Distribution {
     /// # Errors
     /// [`Error::OutOfRange`] for no classes; [`Error::Unsupported`] without two different values, for which
     /// no density exists.
-    pub fn of(mut values: Vec<f64>, classes: Classes) -> Result<Self> {
+    pub fn from_values(mut values: Vec<f64>, classes: Classes) -> Result<Self> {
         values.sort_unstable_by(f64::total_cmp);
         let (lowest, range) = match values[..] {
             [lowest, .., highest] if lowest < highest => (lowest, highest - lowest),
@@ -80,25 +80,25 @@ impl Topography {
     /// Computes the distribution of the defined heights, relative to their mean.
     ///
     /// # Errors
-    /// The errors of [`Distribution::of`].
+    /// The errors of [`Distribution::from_values`].
     pub fn height_distribution(&self, classes: Classes) -> Result<Distribution> {
         let mean = self.mean();
         let defined = self.heights().iter().filter(|z| !z.is_nan());
-        Distribution::of(defined.map(|z| z - mean).collect(), classes)
+        Distribution::from_values(defined.map(|z| z - mean).collect(), classes)
     }
 
     /// Computes the distribution of a slope over the samples that have one, with the derivative of
     /// [`HybridParameters`](super::HybridParameters).
     ///
     /// # Errors
-    /// The errors of [`Distribution::of`].
+    /// The errors of [`Distribution::from_values`].
     pub fn slope_distribution(&self, slope: Slope, classes: Classes) -> Result<Distribution> {
         let pick = |[x, y]: [f64; 2]| match slope {
             Slope::X => x,
             Slope::Y => y,
             Slope::Magnitude => x.hypot(y),
         };
-        Distribution::of(gradients(self, 0..self.grid().shape[0]).map(pick).collect(), classes)
+        Distribution::from_values(gradients(self, 0..self.grid().shape[0]).map(pick).collect(), classes)
     }
 }
 
@@ -161,7 +161,7 @@ mod tests {
         // Uniform values: the interquartile range is ½, the width n^(−1/3).
         let classes = |n: usize| {
             let values = (0..n).map(|i| i as f64 / (n - 1) as f64).collect();
-            Distribution::of(values, Classes::FreedmanDiaconis).unwrap().density.len()
+            Distribution::from_values(values, Classes::FreedmanDiaconis).unwrap().density.len()
         };
         assert_eq!((classes(1001), classes(8001)), (11, 21));
     }
@@ -191,8 +191,8 @@ mod tests {
     fn what_has_no_density_is_refused() {
         let flat = Form::Flat.on(&Grid::new([9, 9], [1.0; 2]).unwrap()).unwrap();
         assert!(matches!(flat.height_distribution(Classes::default()), Err(Error::Unsupported(_))));
-        assert!(matches!(Distribution::of(vec![], Classes::default()), Err(Error::Unsupported(_))));
-        let none = Distribution::of(vec![0.0, 1.0], Classes::Number(0)).unwrap_err();
+        assert!(matches!(Distribution::from_values(vec![], Classes::default()), Err(Error::Unsupported(_))));
+        let none = Distribution::from_values(vec![0.0, 1.0], Classes::Number(0)).unwrap_err();
         assert!(none.to_string().starts_with("number of classes is 0"));
     }
 }

@@ -61,14 +61,14 @@ impl FeatureParameters {
     ///
     /// # Errors
     /// [`asperity_base::Error::OutOfRange`] if `pruning` is not from 0 to 1.
-    pub fn of(topography: &Topography, pruning: f64) -> Result<Self> {
+    pub fn new(topography: &Topography, pruning: f64) -> Result<Self> {
         Self::until(topography, pruning, NEVER)
     }
 
-    /// [`of`](Self::of) that can be stopped by `stop`.
+    /// [`new`](Self::new) that can be stopped by `stop`.
     ///
     /// # Errors
-    /// The errors of [`of`](Self::of); [`asperity_base::Error::Interrupted`].
+    /// The errors of [`new`](Self::new); [`asperity_base::Error::Interrupted`].
     pub fn until(topography: &Topography, pruning: f64, stop: Stop<'_>) -> Result<Self> {
         let (hills, dales) =
             rayon::join(|| topography.hills_until(pruning, stop), || topography.dales_until(pruning, stop));
@@ -100,7 +100,7 @@ impl Topography {
     /// # Errors
     /// [`asperity_base::Error::OutOfRange`] if `pruning` is not from 0 to 1.
     pub fn feature_parameters(&self, pruning: f64) -> Result<FeatureParameters> {
-        FeatureParameters::of(self, pruning)
+        FeatureParameters::new(self, pruning)
     }
 }
 

@@ -58,12 +58,12 @@ const PITS: f64 = 0.8;
 
 impl FunctionalParameters {
     /// Computes the functional parameters of `topography`.
-    pub fn of(topography: &Topography) -> Self {
-        topography.bearing_curve().map_or_else(|_| Self::undefined(), |curve| Self::of_curve(&curve))
+    pub fn new(topography: &Topography) -> Self {
+        topography.bearing_curve().map_or_else(|_| Self::undefined(), |curve| Self::from_curve(&curve))
     }
 
     /// Computes the functional parameters of a curve.
-    pub fn of_curve(curve: &BearingCurve) -> Self {
+    pub fn from_curve(curve: &BearingCurve) -> Self {
         let core = curve.core();
         let core = |pick: fn(&Core) -> f64| core.as_ref().map_or(f64::NAN, pick);
         Self {
@@ -100,7 +100,7 @@ mod tests {
         let grid = Grid::new([2000, 3], [5e-4, 1.0]).unwrap();
         let mut ramp = Form::Flat.on(&grid).unwrap();
         ramp.heights_mut().indexed_iter_mut().for_each(|((ix, _), z)| *z = grid.centre(0, ix));
-        let parameters = FunctionalParameters::of(&ramp);
+        let parameters = FunctionalParameters::new(&ramp);
         // Each height occurs three times: the curve has an error of a third of a step.
         let near = 1.0 / 2000.0;
         assert_relative_eq!(parameters.sk, 1.0, max_relative = 5.0 * near);

@@ -28,12 +28,12 @@ family! {
 
 impl HeightParameters {
     /// Computes the height parameters of `topography`.
-    pub fn of(topography: &Topography) -> Self {
-        Self::of_samples(topography.heights())
+    pub fn new(topography: &Topography) -> Self {
+        Self::from_samples(topography.heights())
     }
 
     /// Computes the height parameters of `samples`, NaN if undefined.
-    pub(crate) fn of_samples<'a>(samples: impl IntoIterator<Item = &'a f64, IntoIter: Clone>) -> Self {
+    pub(crate) fn from_samples<'a>(samples: impl IntoIterator<Item = &'a f64, IntoIter: Clone>) -> Self {
         let defined = samples.into_iter().filter(|z| !z.is_nan());
         let count = defined.clone().count() as f64;
         let mean = defined.clone().sum::<f64>() / count;
@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn a_plane_is_as_deep_as_it_is_high() {
-        let plane = HeightParameters::of_samples(&[3e-6; 4]);
+        let plane = HeightParameters::from_samples(&[3e-6; 4]);
         assert_eq!((plane.sp, plane.sv, plane.sz), (0.0, 0.0, 0.0));
         assert!(plane.sv.is_sign_positive());
     }
@@ -82,7 +82,7 @@ mod tests {
     fn a_sinusoid_has_its_textbook_heights() {
         let grid = Grid::new([200, 20], [0.1, 0.1]).unwrap();
         let form = Form::Sinusoid { amplitude: 2.0, wavelength: [4.0, f64::INFINITY] };
-        let parameters = HeightParameters::of(&form.on(&grid).unwrap());
+        let parameters = HeightParameters::new(&form.on(&grid).unwrap());
         // The sum over the n = 40 samples of a wave replaces the integral of |cos|: relative error π²/3n².
         assert_relative_eq!(parameters.sa, 4.0 / PI, max_relative = (PI / 40.0).powi(2));
         assert_relative_eq!(parameters.sq, 2.0 / 2f64.sqrt(), max_relative = 1e-13);
@@ -96,7 +96,7 @@ mod tests {
     fn a_hemispherical_cap_is_skewed_downwards() {
         // z = −(x² + y²)/2R over a square of side 2a: the variance of x² is 4a⁴/45, so Sq² = 2 (4/45) a⁴/4R².
         let grid = Grid::new([400, 400], [0.005, 0.005]).unwrap();
-        let parameters = HeightParameters::of(&Form::Sphere { radius: 1.0 }.on(&grid).unwrap());
+        let parameters = HeightParameters::new(&Form::Sphere { radius: 1.0 }.on(&grid).unwrap());
         assert_relative_eq!(parameters.sq, (2.0 * 4.0 / 45.0 / 4.0f64).sqrt(), max_relative = 1e-4);
         assert!(parameters.ssk < 0.0 && parameters.sp < parameters.sv);
     }

@@ -29,7 +29,7 @@ family! {
 
 impl HybridParameters {
     /// Computes the hybrid parameters of `topography`.
-    pub fn of(topography: &Topography) -> Self {
+    pub fn new(topography: &Topography) -> Self {
         let [squares, excess, count] = parallel::merged(topography.grid().shape, |rows| {
             let mut sums = [0.0; 3];
             for [x, y] in gradients(topography, rows) {
@@ -63,7 +63,7 @@ mod tests {
         // The samples with three neighbours on every side span one whole wave; relative error (2π/40)⁶/140.
         let whole = Grid::new([46, 20], [0.1, 0.1]).unwrap();
         let wave = Form::Sinusoid { amplitude: 2.0, wavelength: [4.0, f64::INFINITY] };
-        let parameters = HybridParameters::of(&wave.on(&whole).unwrap());
+        let parameters = HybridParameters::new(&wave.on(&whole).unwrap());
         let steepest = TAU / 4.0 * 2.0;
         assert_relative_eq!(parameters.sdq, steepest / 2f64.sqrt(), max_relative = 1.1e-7);
         let excess = |t: f64| (1.0 + (steepest * (TAU * t).sin()).powi(2)).sqrt() - 1.0;
@@ -103,7 +103,7 @@ mod tests {
         let mut heights =
             Field::from_shape_fn(grid.shape, |(ix, iy)| 3.0 * grid.centre(0, ix) - 4.0 * grid.centre(1, iy));
         heights[[10, 10]] = f64::NAN;
-        let parameters = HybridParameters::of(&Topography::new(grid, heights).unwrap());
+        let parameters = HybridParameters::new(&Topography::new(grid, heights).unwrap());
         assert_relative_eq!(parameters.sdq, 5.0, max_relative = 1e-12);
         assert_relative_eq!(parameters.sdr, 26f64.sqrt() - 1.0, max_relative = 1e-12);
     }
@@ -112,7 +112,7 @@ mod tests {
     fn the_area_of_gentle_slopes_keeps_its_digits() {
         let grid = Grid::new([9, 9], [1.0; 2]).unwrap();
         let heights = Field::from_shape_fn(grid.shape, |(ix, _)| 1e-9 * ix as f64);
-        let parameters = HybridParameters::of(&Topography::new(grid, heights).unwrap());
+        let parameters = HybridParameters::new(&Topography::new(grid, heights).unwrap());
         assert_relative_eq!(parameters.sdr, 0.5e-18, max_relative = 1e-9);
     }
 }

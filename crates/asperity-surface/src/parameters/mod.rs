@@ -55,11 +55,11 @@ pub struct Parameters {
 
 impl Parameters {
     /// Computes the parameters of `topography`.
-    pub fn of(topography: &Topography) -> Self {
+    pub fn new(topography: &Topography) -> Self {
         Self::until(topography, NEVER).expect("nobody stops it, and the pruning is a share")
     }
 
-    /// [`of`](Self::of) that can be stopped by `stop`.
+    /// [`new`](Self::new) that can be stopped by `stop`.
     ///
     /// # Errors
     /// [`asperity_base::Error::Interrupted`].
@@ -69,10 +69,10 @@ impl Parameters {
             Ok(of())
         }
         Ok(Self {
-            height: made(stop, || HeightParameters::of(topography))?,
-            spatial: made(stop, || SpatialParameters::of(topography))?,
-            hybrid: made(stop, || HybridParameters::of(topography))?,
-            functional: made(stop, || FunctionalParameters::of(topography))?,
+            height: made(stop, || HeightParameters::new(topography))?,
+            spatial: made(stop, || SpatialParameters::new(topography))?,
+            hybrid: made(stop, || HybridParameters::new(topography))?,
+            functional: made(stop, || FunctionalParameters::new(topography))?,
             feature: FeatureParameters::until(topography, WOLF_PRUNING, stop)?,
         })
     }
@@ -86,19 +86,19 @@ impl Parameters {
 
 impl Topography {
     /// Computes the ISO 25178 parameters of the defined samples. For one family alone use for example
-    /// [`HeightParameters::of`]: other families sort the heights.
+    /// [`HeightParameters::new`]: other families sort the heights.
     pub fn parameters(&self) -> Parameters {
-        Parameters::of(self)
+        Parameters::new(self)
     }
 
     /// Root mean square height, [`HeightParameters::sq`].
     pub fn sq(&self) -> Metre {
-        HeightParameters::of(self).sq
+        HeightParameters::new(self).sq
     }
 
     /// Root mean square gradient, [`HybridParameters::sdq`].
     pub fn sdq(&self) -> f64 {
-        HybridParameters::of(self).sdq
+        HybridParameters::new(self).sdq
     }
 }
 
@@ -141,8 +141,8 @@ mod tests {
         let height = |ix: usize, iy: usize| ((7 * ix * ix + 3 * iy) % 31) as f64;
         let holed = topography([30, 40], |ix, iy| if iy % 2 == 0 { height(ix, iy / 2) } else { f64::NAN });
         let whole = topography([30, 20], height);
-        assert_eq!(HeightParameters::of(&holed), HeightParameters::of(&whole));
-        assert_eq!(FunctionalParameters::of(&holed), FunctionalParameters::of(&whole));
+        assert_eq!(HeightParameters::new(&holed), HeightParameters::new(&whole));
+        assert_eq!(FunctionalParameters::new(&holed), FunctionalParameters::new(&whole));
     }
 
     #[test]

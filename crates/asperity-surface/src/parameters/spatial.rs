@@ -44,9 +44,9 @@ family! {
 
 impl SpatialParameters {
     /// Computes the spatial parameters of `topography`.
-    pub fn of(topography: &Topography) -> Self {
-        let [fastest, slowest] = Correlation::of(topography).decay_lengths(DECAY);
-        let spectrum = Spectrum::of(topography, Window::Hann);
+    pub fn new(topography: &Topography) -> Self {
+        let [fastest, slowest] = Correlation::new(topography).decay_lengths(DECAY);
+        let spectrum = Spectrum::new(topography, Window::Hann);
         let several = topography.grid().shape.iter().all(|n| *n > 1);
         Self {
             sal: fastest,
@@ -86,7 +86,7 @@ fn offset(spectrum: &Spectrum, highest: [usize; 2], axis: usize) -> f64 {
     let at = |step: isize| {
         let mut wave = highest.map(|index| index as isize);
         wave[axis] += step;
-        spectrum.at(wave)
+        spectrum.density_at(wave)
     };
     let (before, after) = (at(-1), at(1));
     let ratio = (before.max(after) / at(0)).sqrt();
@@ -119,7 +119,7 @@ mod tests {
         let seeds = 4;
         let (mut sal, mut aspect) = (0.0, 0.0);
         for seed in 0..seeds {
-            let parameters = SpatialParameters::of(&method.generate(&grid, seed).unwrap());
+            let parameters = SpatialParameters::new(&method.generate(&grid, seed).unwrap());
             sal += parameters.sal / seeds as f64;
             aspect += parameters.str / seeds as f64;
         }
@@ -140,7 +140,7 @@ mod tests {
         heights
             .filter(|(n, _)| (n.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40).is_multiple_of(5))
             .for_each(|(_, z)| *z = f64::NAN);
-        let (whole, holed) = (SpatialParameters::of(&whole), SpatialParameters::of(&holed));
+        let (whole, holed) = (SpatialParameters::new(&whole), SpatialParameters::new(&holed));
         // R differs by the scatter of the missing pairs, √(2 · 0.36/0.64/n), over its slope.
         let error = 4.0 * (2.0 * 0.36 / 0.64 / 65536.0f64).sqrt() / (0.2 * 5f64.ln());
         assert_relative_eq!(holed.sal, whole.sal, max_relative = error);
@@ -153,7 +153,7 @@ mod tests {
             let (sin, cos) = degrees.to_radians().sin_cos();
             let wavelength = 7.3;
             let q = TAU / wavelength;
-            let found = SpatialParameters::of(&wave([200, 150], [0.5, 1.0], [q * cos, q * sin]));
+            let found = SpatialParameters::new(&wave([200, 150], [0.5, 1.0], [q * cos, q * sin]));
             let distance = (found.std.to_degrees() - degrees + 90.0).rem_euclid(180.0) - 90.0;
             // Half a step of the directions, and half a step 2π/L of the wave number over q.
             let step = 0.5 * (TAU / 100.0 / q).to_degrees();
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn grooves_longer_than_the_map_have_no_aspect_ratio() {
-        let found = SpatialParameters::of(&wave([200, 150], [0.5, 1.0], [TAU / 10.0, 0.0]));
+        let found = SpatialParameters::new(&wave([200, 150], [0.5, 1.0], [TAU / 10.0, 0.0]));
         // R = cos(2πx/λ)/2 reaches 0.2 of R(0) at λ arccos(0.2)/2π. The error of its estimate is the fraction
         // of a wave at the ends, λ/πL.
         assert_relative_eq!(found.sal, 10.0 * 0.2f64.acos() / TAU, max_relative = 10.0 / (TAU / 2.0 * 100.0));
@@ -179,10 +179,10 @@ mod tests {
         let level = Topography::new(grid, Field::from_elem([16, 16], 0.1)).unwrap();
         let nothing = Topography::new(grid, Field::from_elem([16, 16], f64::NAN)).unwrap();
         for topography in [Form::Flat.on(&grid).unwrap(), level, nothing] {
-            let SpatialParameters { sal, str, std, ssw } = SpatialParameters::of(&topography);
+            let SpatialParameters { sal, str, std, ssw } = SpatialParameters::new(&topography);
             assert!([sal, str, std, ssw].iter().all(|value| value.is_nan()), "{sal} {str} {std} {ssw}");
         }
-        let line = SpatialParameters::of(&wave([200, 1], [0.5, 1.0], [TAU / 10.0, 0.0]));
+        let line = SpatialParameters::new(&wave([200, 1], [0.5, 1.0], [TAU / 10.0, 0.0]));
         assert!(line.sal > 0.0 && line.str.is_nan() && line.std.is_nan());
         assert_relative_eq!(line.ssw, 10.0, max_relative = 0.01);
     }
@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn json_carries_the_names_of_the_standard() {
         let json =
-            serde_json::to_value(SpatialParameters::of(&wave([32, 32], [1.0; 2], [0.5, 0.7]))).unwrap();
+            serde_json::to_value(SpatialParameters::new(&wave([32, 32], [1.0; 2], [0.5, 0.7]))).unwrap();
         assert!(["Sal", "Str", "Std", "Ssw"].iter().all(|name| json.get(name).is_some()), "{json}");
     }
 }

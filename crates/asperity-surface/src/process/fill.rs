@@ -157,7 +157,7 @@ mod tests {
             |x, y| (3.1 * x + 1.7 * y * y).sin(),
             |i, j| (i * 7 + j * j) % 3 > 0,
         );
-        let range = HeightParameters::of(&holed);
+        let range = HeightParameters::new(&holed);
         let mean = holed.mean();
         let filled = holed.fill(Fill::Harmonic).unwrap();
         assert!(

@@ -89,7 +89,7 @@ impl Profile {
     /// Computes the ISO 21920 parameters of the profile as it is; for roughness parameters, use
     /// [`Profile::roughness`] first.
     pub fn parameters(&self) -> ProfileParameters {
-        let height = HeightParameters::of_samples(&self.heights);
+        let height = HeightParameters::from_samples(&self.heights);
         let Sections { peak, pit, samples } = self.sections();
         let Slopes { square, absolute, steepest, excess } = self.slopes();
         let [spacing, element_height] = self.mean_element(peak, pit, samples);

@@ -114,7 +114,7 @@ impl Topography {
 /// Segments the hills of `up` · z.
 fn segment(topography: &Topography, up: f64, pruning: f64, stop: Stop<'_>) -> Result<Segmentation> {
     check("pruning", pruning, (0.0..=1.0).contains(&pruning), "a share of Sz from 0 to 1")?;
-    let relief = Relief::of(topography, up);
+    let relief = Relief::new(topography, up);
     let mut defined: Vec<f64> = relief.z.iter().copied().filter(|z| !z.is_nan()).collect();
     if defined.is_empty() {
         return Ok(Segmentation { labels: Array2::zeros(topography.grid().shape), motifs: Vec::new() });
@@ -123,7 +123,7 @@ fn segment(topography: &Topography, up: f64, pruning: f64, stop: Stop<'_>) -> Re
     let half = *defined.select_nth_unstable_by(middle, |a, b| b.total_cmp(a)).1;
     let highest = defined.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let lowest = defined.iter().copied().fold(f64::INFINITY, f64::min);
-    let Pruned { of, hills } = Watershed::of(&relief, stop)?.prune(pruning * (highest - lowest));
+    let Pruned { of, hills } = Watershed::from_relief(&relief, stop)?.prune(pruning * (highest - lowest));
 
     let mut motifs: Vec<Motif> = hills
         .iter()

@@ -15,7 +15,7 @@ pub(super) struct Relief {
 
 impl Relief {
     /// Creates the relief from the heights of `topography` times `up`.
-    pub(super) fn of(topography: &Topography, up: f64) -> Self {
+    pub(super) fn new(topography: &Topography, up: f64) -> Self {
         let grid = *topography.grid();
         let width = (grid.shape[1] + 2) as isize;
         let [along, across] = [(width, grid.pitch[0]), (1, grid.pitch[1])];

@@ -53,7 +53,7 @@ impl Watershed {
     ///
     /// Linear in the number of samples, except for sorting the peaks and the samples at borders between
     /// hills.
-    pub(super) fn of(relief: &Relief, stop: Stop<'_>) -> Result<Self> {
+    pub(super) fn from_relief(relief: &Relief, stop: Stop<'_>) -> Result<Self> {
         let z = &relief.z;
         let (of, peaks) = hills(relief, stop)?;
         let meets = |cell: usize, other: usize| z[other] >= z[cell] && of[other] != of[cell];

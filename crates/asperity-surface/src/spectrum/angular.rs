@@ -68,7 +68,7 @@ mod tests {
             let heights = Field::from_shape_fn(grid.shape, |(ix, iy)| {
                 (q[0] * grid.centre(0, ix) + q[1] * grid.centre(1, iy)).cos()
             });
-            let spectrum = Spectrum::of(&Topography::new(grid, heights).unwrap(), Window::None);
+            let spectrum = Spectrum::new(&Topography::new(grid, heights).unwrap(), Window::None);
             let angular = spectrum.angular(180);
             let highest = (0..180).max_by(|&a, &b| angular[a].total_cmp(&angular[b])).unwrap();
             let direction = q[1].atan2(q[0]).to_degrees().rem_euclid(180.0);
@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn white_noise_has_no_direction() {
-        let spectrum = Spectrum::of(&noise([256, 256], [1.0; 2], 1), Window::None);
+        let spectrum = Spectrum::new(&noise([256, 256], [1.0; 2], 1), Window::None);
         let angular = spectrum.angular(36);
         // The circle contains π/4 of the waves. A sector averages 256² π/4/72 of the pairs ±q, each with a
         // relative scatter of 1; the waves across its edges reduce it slightly.

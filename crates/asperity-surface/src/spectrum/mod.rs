@@ -52,7 +52,7 @@ pub struct SpectralPoint {
 
 impl Spectrum {
     /// Computes the spectrum of `topography` with `window`.
-    pub fn of(topography: &Topography, window: Window) -> Self {
+    pub fn new(topography: &Topography, window: Window) -> Self {
         let grid = *topography.grid();
         let mut heights = match topography.clone().fill(Fill::Harmonic) {
             Ok(filled) => filled.into_heights(),
@@ -85,7 +85,7 @@ impl Spectrum {
 
     /// Returns C(q), m⁴, at the wave vector of k periods along x and l along y, also negative ones; periodic
     /// beyond the Nyquist wave number.
-    pub fn at(&self, [k, l]: [isize; 2]) -> f64 {
+    pub fn density_at(&self, [k, l]: [isize; 2]) -> f64 {
         let [nx, ny] = self.grid.shape.map(|n| n as isize);
         let l = l.rem_euclid(ny);
         let [k, l] = if 2 * l > ny { [-k, ny - l] } else { [k, l] };
@@ -125,8 +125,8 @@ impl Spectrum {
         let scale = 1.0 / self.grid.extent()[across];
         let points = (0..=shape[along] / 2).map(|m| {
             let at = |other: usize| match axis {
-                Axis::X => self.at([m as isize, other as isize]),
-                Axis::Y => self.at([other as isize, m as isize]),
+                Axis::X => self.density_at([m as isize, other as isize]),
+                Axis::Y => self.density_at([other as isize, m as isize]),
             };
             let sum: f64 = (0..shape[across]).map(at).sum();
             let wave_number = angular_frequency(m, shape[along], pitch[along]);
@@ -183,15 +183,15 @@ mod tests {
     fn a_sinusoid_is_four_lines_of_its_amplitude() {
         let grid = Grid::new([60, 80], [0.5, 0.25]).unwrap();
         let form = Form::Sinusoid { amplitude: 3.0, wavelength: [5.0, 4.0] };
-        let spectrum = Spectrum::of(&form.on(&grid).unwrap(), Window::None);
+        let spectrum = Spectrum::new(&form.on(&grid).unwrap(), Window::None);
         // cos·cos is four waves of amplitude A/4: |z̃| = A/4 × area, each C = A²/16 × area.
         let line = 9.0 / 16.0 * grid.area();
         for ((k, l), density) in spectrum.density().indexed_iter() {
             let expected = if (k == 6 || k == 54) && l == 5 { line } else { 0.0 };
             assert!((density - expected).abs() < 1e-12 * line, "[{k}, {l}]: {density}");
         }
-        assert_relative_eq!(spectrum.at([-6, 5]), line, max_relative = 1e-12);
-        assert_relative_eq!(spectrum.at([-6, -5]), line, max_relative = 1e-12);
+        assert_relative_eq!(spectrum.density_at([-6, 5]), line, max_relative = 1e-12);
+        assert_relative_eq!(spectrum.density_at([-6, -5]), line, max_relative = 1e-12);
         let [qx, qy] = spectrum.wave_vector([54, 5]);
         assert_relative_eq!(qx, -TAU / 5.0, max_relative = 1e-14);
         assert_relative_eq!(qy, TAU / 4.0, max_relative = 1e-14);
@@ -202,7 +202,7 @@ mod tests {
         for shape in [[31, 24], [24, 31], [1, 16], [16, 1]] {
             let topography = noise(shape, [0.5, 2.0], 1);
             for window in WINDOWS {
-                let spectrum = Spectrum::of(&topography, window);
+                let spectrum = Spectrum::new(&topography, window);
                 let weights = window.weights(shape);
                 let z = topography.heights();
                 let mean = (z * &weights).sum() / weights.sum();
@@ -226,7 +226,7 @@ mod tests {
     fn white_noise_has_the_density_of_one_cell_under_every_window() {
         // ΔA times the variance. A window couples neighbouring waves: with Hann's, 35/18 waves count as one
         // independent wave along each axis, with the others fewer.
-        let spectra = WINDOWS.map(|window| Spectrum::of(&noise([256, 200], [0.5, 0.25], 3), window));
+        let spectra = WINDOWS.map(|window| Spectrum::new(&noise([256, 200], [0.5, 0.25], 3), window));
         for spectrum in spectra {
             let (mut sum, mut waves) = (0.0, 0.0);
             spectrum.for_each_wave(|[qx, qy], density, signs| {
@@ -243,7 +243,7 @@ mod tests {
     #[test]
     fn the_spectrum_along_an_axis_is_the_mean_of_the_spectra_of_the_profiles() {
         let topography = noise([24, 5], [0.5, 2.0], 8);
-        let spectrum = Spectrum::of(&topography, Window::None);
+        let spectrum = Spectrum::new(&topography, Window::None);
         let mean = topography.mean();
         for point in spectrum.along(Axis::X) {
             let of_line = |iy: usize| {
@@ -268,7 +268,7 @@ mod tests {
         let whole = Form::Sinusoid { amplitude: 1.0, wavelength: [64.0, f64::INFINITY] }.on(&grid).unwrap();
         let mut holed = whole.clone();
         (60..67).for_each(|ix| (40..47).for_each(|iy| holed.heights_mut()[[ix, iy]] = f64::NAN));
-        let [expected, found] = [whole, holed].map(|z| Spectrum::of(&z, Window::None));
+        let [expected, found] = [whole, holed].map(|z| Spectrum::new(&z, Window::None));
         let line = expected.density()[[2, 0]];
         assert_relative_eq!(found.density()[[2, 0]], line, max_relative = 2.0 * 49.0 / grid.cells() as f64);
         let rest = found.density().sum() - found.density()[[2, 0]] - found.density()[[126, 0]];
@@ -279,6 +279,6 @@ mod tests {
     fn without_a_sample_nothing_is_a_number() {
         let grid = Grid::new([4, 4], [1.0, 1.0]).unwrap();
         let nothing = Topography::new(grid, Field::from_elem([4, 4], f64::NAN)).unwrap();
-        assert!(Spectrum::of(&nothing, Window::Hann).variance().is_nan());
+        assert!(Spectrum::new(&nothing, Window::Hann).variance().is_nan());
     }
 }

@@ -90,7 +90,7 @@ mod tests {
         let (rolloff, shortest) = (64.0, 4.0);
         let (hurst, amplitude) = (0.7, Amplitude::Sq(1.0));
         let law = SelfAffine { hurst, rolloff: Some(rolloff), shortest: Some(shortest), amplitude };
-        let spectrum = Spectrum::of(&law.generate(&grid, 5).unwrap(), Window::None);
+        let spectrum = Spectrum::new(&law.generate(&grid, 5).unwrap(), Window::None);
         let flat = spectrum.density()[[1, 0]];
         for (bins, width) in
             [(Bins::Logarithmic { per_decade: 20 }, 10f64.ln() / 20.0), (Bins::Linear, TAU / 512.0)]
@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn every_wave_in_the_circle_counts_once() {
-        let spectrum = Spectrum::of(&noise([40, 33], [1.0, 1.0], 1), Window::None);
+        let spectrum = Spectrum::new(&noise([40, 33], [1.0, 1.0], 1), Window::None);
         let whole: usize = spectrum.radial(Bins::Linear).iter().map(|point| point.waves).sum();
         let logarithmic = spectrum.radial(Bins::Logarithmic { per_decade: 10 });
         assert_eq!(whole, logarithmic.iter().map(|point| point.waves).sum::<usize>());
@@ -132,13 +132,13 @@ mod tests {
 
     #[test]
     fn the_mean_over_the_directions_of_a_line_is_the_spectrum_along_it() {
-        let spectrum = Spectrum::of(&noise([64, 1], [0.5, 3.0], 2), Window::None);
+        let spectrum = Spectrum::new(&noise([64, 1], [0.5, 3.0], 2), Window::None);
         let along = spectrum.along(Axis::X);
         for (radial, along) in spectrum.radial(Bins::Linear).iter().zip(&along[1..]) {
             assert_relative_eq!(radial.wave_number, along.wave_number, max_relative = 1e-12);
             // C is per width of the line, here one cell.
             assert_relative_eq!(radial.density / 3.0, along.density, max_relative = 1e-12);
         }
-        assert!(Spectrum::of(&noise([1, 1], [0.5, 3.0], 2), Window::None).radial(Bins::Linear).is_empty());
+        assert!(Spectrum::new(&noise([1, 1], [0.5, 3.0], 2), Window::None).radial(Bins::Linear).is_empty());
     }
 }

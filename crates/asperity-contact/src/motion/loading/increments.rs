@@ -201,7 +201,7 @@ impl Increments {
             (_, slip) => slip.cloned(),
         };
         let before = last.as_ref().map(Equilibrium::normal);
-        let interface = InterfaceRecord::of(pair.interface(), contact.normal(), before);
+        let interface = InterfaceRecord::new(pair.interface(), contact.normal(), before);
         let area = pair.cell_area();
         let stage = &stages[next.stage];
         let (mut represented, mut gone) = (1, Vec::new());

@@ -37,7 +37,7 @@ use asperity_base::record::{Column, Record};
 impl Record for StepRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 
-    fn at(&self, error: Error) -> Error {
+    fn error_at(&self, error: Error) -> Error {
         error.if_of_step(|source| Error::AtPass { pass: self.pass, source })
     }
 }
@@ -45,7 +45,7 @@ impl Record for StepRecord {
 impl Record for PassRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 
-    fn at(&self, error: Error) -> Error {
+    fn error_at(&self, error: Error) -> Error {
         error.if_of_step(|source| Error::AtPass { pass: self.pass, source })
     }
 }
@@ -53,7 +53,7 @@ impl Record for PassRecord {
 impl Record for IncrementRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 
-    fn at(&self, error: Error) -> Error {
+    fn error_at(&self, error: Error) -> Error {
         error.if_of_step(|source| Error::AtIncrement { increment: self.increment, source })
     }
 }
@@ -61,7 +61,7 @@ impl Record for IncrementRecord {
 impl Record for UpdateRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 
-    fn at(&self, error: Error) -> Error {
+    fn error_at(&self, error: Error) -> Error {
         error.if_of_step(|source| Error::AtUpdate { update: self.update, source })
     }
 }

@@ -66,7 +66,7 @@ impl SolvedPass {
             outer_iterations: self.trials,
             wall_time_s: self.wall_time,
             running: self.running,
-            interface: InterfacePassRecord::of(
+            interface: InterfacePassRecord::from_positions(
                 self.steps.iter().filter_map(|step| step.interface.as_ref()),
                 self.distance,
                 self.history_difference,

@@ -251,7 +251,7 @@ mod tests {
                 let own = normal_displacement(x, y, pitch, 2.0 * layer);
                 let images: f64 =
                     (1..60).map(|n| 2.0 * contrast.powi(n) * image(2.0 * f64::from(n) * thickness)).sum();
-                assert_relative_eq!(influence.at(x, y), own + images, max_relative = 1e-9);
+                assert_relative_eq!(influence.displacement(x, y), own + images, max_relative = 1e-9);
             }
         }
     }

@@ -254,7 +254,7 @@ mod tests {
         let columns = operator.grid().shape[1];
         let matrix = Array2::from_shape_fn([cells.len(); 2], |(i, j)| {
             let ((a, b), (c, d)) = (cells[i], cells[j]);
-            let own = if i == j { resistance.at(a * columns + b) } else { 0.0 };
+            let own = if i == j { resistance.value(a * columns + b) } else { 0.0 };
             operator.influence(a.abs_diff(c), b.abs_diff(d)) + own
         });
         let flux = Cholesky::new(matrix).unwrap().solve(&vec![1.0; cells.len()]);

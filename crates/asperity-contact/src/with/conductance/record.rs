@@ -204,7 +204,7 @@ impl<'de> Deserialize<'de> for Quantities {
 impl Record for ConductanceRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 
-    fn at(&self, error: Error) -> Error {
+    fn error_at(&self, error: Error) -> Error {
         match self.pass {
             Some(pass) => error.if_of_step(|source| Error::AtPass { pass, source }),
             None => error,

@@ -87,7 +87,7 @@ columns! {
 impl Record for FatigueRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 
-    fn at(&self, error: Error) -> Error {
+    fn error_at(&self, error: Error) -> Error {
         error.if_of_step(|source| match self.pass {
             Some(pass) => Error::AtPass { pass, source },
             None => Error::AtIncrement { increment: self.step, source },

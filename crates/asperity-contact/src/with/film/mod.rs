@@ -209,7 +209,7 @@ impl Film {
         let thickness = &body.state[FILM].values;
         let mut hardness = thickness.clone();
         for (cell, value) in hardness.iter_mut().enumerate() {
-            let hard = bare.at(cell);
+            let hard = bare.value(cell);
             *value = hard - (hard - soft) * (*value / self.max_thickness).clamp(0.0, 1.0);
         }
         body.hardness = hardness.into();

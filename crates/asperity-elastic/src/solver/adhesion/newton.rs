@@ -181,7 +181,7 @@ impl<'a> NewtonIteration<'a> {
         let (bands, adhesion) = (self.sets.bands(), self.problem.adhesion);
         let mut softening = SingleField::zeros(gap.raw_dim());
         let parts = bands.cut_mut(flat_mut(&mut softening)).zip(bands.cut(flat(gap)));
-        parallel::map(parts.zip(bands.cut(self.sets.of())), |((softening, gap), sets)| {
+        parallel::map(parts.zip(bands.cut(self.sets.by_cell())), |((softening, gap), sets)| {
             let open = softening.iter_mut().zip(gap).zip(sets).filter(|(_, set)| **set == Set::Lower);
             open.for_each(|((d, g), _)| *d = adhesion.softening(*g) as f32);
         });
@@ -195,14 +195,14 @@ impl<'a> NewtonIteration<'a> {
         // The approach changes by the mean gap first; the open cells follow.
         let mean = if step.unit.is_some() { self.mean_in_contact(flat(gap)) } else { 0.0 };
         let mut right = vec![0.0; gap.len()];
-        let parts = bands.cut_mut(&mut right).zip(bands.cut(self.sets.of())).zip(bands.cut(flat(gap)));
+        let parts = bands.cut_mut(&mut right).zip(bands.cut(self.sets.by_cell())).zip(bands.cut(flat(gap)));
         let parts = parts.zip(bands.cut(flat(&self.pressure))).zip(bands.cut(flat(&step.softening)));
         parallel::map(parts.enumerate(), |(band, ((((right, sets), gap), pressure), softening))| {
             let cells = right.iter_mut().zip(sets).zip(gap).zip(pressure).zip(softening).enumerate();
             for (cell, ((((right, set), g), p), d)) in cells {
                 let value = match set {
                     Set::Free => mean - g,
-                    Set::Upper => influence * (upper.at(bands.first(band) + cell) - p),
+                    Set::Upper => influence * (upper.value(bands.first(band) + cell) - p),
                     Set::Lower => -influence * (p + adhesion.tension(*g) + f64::from(*d) * mean),
                 };
                 *right = value as f32;
@@ -215,7 +215,8 @@ impl<'a> NewtonIteration<'a> {
     fn change(&mut self, step: &Step, unknowns: &[f32], change: &mut SingleField) {
         let [contact, ..] = self.preconditioner.apply(&self.sets, |cell| unknowns[cell], flat_mut(change));
         let (bands, stiffness) = (self.sets.bands(), (1.0 / self.influence) as f32);
-        let parts = bands.cut_mut(flat_mut(change)).zip(bands.cut(unknowns)).zip(bands.cut(self.sets.of()));
+        let parts =
+            bands.cut_mut(flat_mut(change)).zip(bands.cut(unknowns)).zip(bands.cut(self.sets.by_cell()));
         let others = parallel::map(parts, |((change, unknowns), sets)| {
             let mut sum = 0.0;
             for ((p, y), set) in change.iter_mut().zip(unknowns).zip(sets) {
@@ -240,7 +241,7 @@ impl<'a> NewtonIteration<'a> {
         let mean = if step.unit.is_some() { self.mean_in_contact(flat(response)) as f32 } else { 0.0 };
         let (bands, influence) = (self.sets.bands(), self.influence as f32);
         let mut left = vec![0.0; change.len()];
-        let parts = bands.cut_mut(&mut left).zip(bands.cut(self.sets.of())).zip(bands.cut(flat(change)));
+        let parts = bands.cut_mut(&mut left).zip(bands.cut(self.sets.by_cell())).zip(bands.cut(flat(change)));
         let parts = parts.zip(bands.cut(flat(response))).zip(bands.cut(flat(&step.softening)));
         parallel::map(parts, |((((left, sets), change), response), softening)| {
             let cells = left.iter_mut().zip(sets).zip(change).zip(response).zip(softening);

@@ -68,7 +68,7 @@ impl Stored {
 impl AdhesionRecord {
     /// Creates the record of a contact whose bodies come from the contact `before`, or from afar; `None`
     /// between hard walls.
-    pub fn of(interface: &dyn Interface, solution: &Solution, before: Option<&Solution>) -> Option<Self> {
+    pub fn new(interface: &dyn Interface, solution: &Solution, before: Option<&Solution>) -> Option<Self> {
         (!interface.is_hard()).then(|| {
             let record = Self::alone(interface, solution);
             before.map_or(record, |before| record.since(interface, solution, before))
@@ -128,7 +128,7 @@ impl AdhesionRecord {
 
 impl AdhesionPassRecord {
     /// Creates the record of a pass of this sliding `distance` from those of its positions.
-    pub fn of<'a>(
+    pub fn from_positions<'a>(
         positions: impl Iterator<Item = &'a AdhesionRecord>,
         distance: Metre,
         history_difference: f64,

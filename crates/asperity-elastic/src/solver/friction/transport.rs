@@ -95,7 +95,7 @@ impl ShiftByCell {
     }
 
     /// Returns the flat index of the cell whose material arrives at a `cell`.
-    pub(super) fn of(&self, cell: usize) -> usize {
+    pub(super) fn source(&self, cell: usize) -> usize {
         match (cell + self.columns, self.repeats) {
             (next, _) if next < self.cells => next,
             (next, true) => next - self.cells,
@@ -107,7 +107,7 @@ impl ShiftByCell {
     pub(super) fn field(&self, field: &Field) -> Field {
         let values = field.as_slice().expect("standard layout");
         let mut ahead = field.clone();
-        ahead.iter_mut().enumerate().for_each(|(cell, value)| *value = values[self.of(cell)]);
+        ahead.iter_mut().enumerate().for_each(|(cell, value)| *value = values[self.source(cell)]);
         ahead
     }
 }

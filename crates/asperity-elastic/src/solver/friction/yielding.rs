@@ -15,7 +15,7 @@ pub(super) fn bounds_under_shear(
     let mut upper = pressure.clone();
     let cells = upper.iter_mut().zip(&shear[0]).zip(&shear[1]).enumerate();
     for (cell, ((p, x), y)) in cells {
-        let hardness = unsheared.upper().at(cell);
+        let hardness = unsheared.upper().value(cell);
         *p = friction.within(hardness).cap(hardness, *p, x.hypot(*y));
     }
     Bounds::up_to(upper).above(unsheared.lower().clone())
@@ -27,7 +27,7 @@ pub(super) fn start_within(pressure: &Field, bounds: &Bounds, next: &Bounds) -> 
     let mut start = pressure.clone();
     for (cell, p) in start.iter_mut().enumerate() {
         if bounds.caps(cell, *p) {
-            *p = next.upper().at(cell);
+            *p = next.upper().value(cell);
         }
     }
     start
@@ -43,7 +43,7 @@ pub(super) fn shear_limits(
 ) -> Field {
     let mut limits = pressure.clone();
     for (cell, p) in limits.iter_mut().enumerate() {
-        let friction = if grows_junctions { friction.within(hardness.at(cell)) } else { *friction };
+        let friction = if grows_junctions { friction.within(hardness.value(cell)) } else { *friction };
         *p = friction.shear_limit(*p);
     }
     limits

@@ -506,7 +506,7 @@ fn a_topography_is_written_and_read_by_the_end_of_its_name() {
     for name in ["a.npy", "a.x3p", "a.SDF", "a.gwy"] {
         let path = directory.path().join(name);
         topography.write(&path).unwrap();
-        let read = if Format::of(&path).unwrap().has_pitch() {
+        let read = if Format::from_path(&path).unwrap().has_pitch() {
             Topography::read(&path)
         } else {
             let without = Topography::read(&path).unwrap_err();

@@ -90,7 +90,7 @@ impl<'a> Block<'a> {
         let (preconditioner, near_field, local) = made.expect("a site lends its operator");
         Self {
             site,
-            bands: Bands::of(shape),
+            bands: Bands::new(shape),
             preconditioner,
             pressure,
             touch: Field::zeros(shape),

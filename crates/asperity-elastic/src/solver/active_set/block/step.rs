@@ -61,7 +61,7 @@ impl Block<'_> {
             let first = self.bands.first(band);
             let cells = pressure.iter().zip(touch).enumerate();
             with_bounds!(bounds, of => {
-                Multiplier::of(cells.map(|(cell, (p, touch))| Cell {
+                Multiplier::new(cells.map(|(cell, (p, touch))| Cell {
                     pressure: *p,
                     displacement: 0.0,
                     touch: *touch,
@@ -86,7 +86,7 @@ impl Block<'_> {
             let first = self.bands.first(band);
             with_bounds!(bounds, of => {
                 let of = |cell: usize| of(first + cell);
-                ResidualSums::of_fields([pressure, touch, gap], of, approach, self_influence)
+                ResidualSums::from_fields([pressure, touch, gap], of, approach, self_influence)
             })
         });
         Merged::of_parts(parts)
@@ -137,7 +137,7 @@ impl Block<'_> {
     pub(in crate::solver::active_set) fn direct_to_bounds(&mut self) -> [f64; 2] {
         let bounds = self.site.bounds();
         let bands = self.bands;
-        let parts = bands.cut_mut(flat_mut(&mut self.direction)).zip(bands.cut(self.sets.of()));
+        let parts = bands.cut_mut(flat_mut(&mut self.direction)).zip(bands.cut(self.sets.by_cell()));
         let parts = parts.zip(bands.cut(flat(&self.pressure))).enumerate();
         Merged::of_parts(parallel::map(parts, |(band, ((direction, sets), pressure))| {
             let first = bands.first(band);
@@ -261,7 +261,7 @@ impl Block<'_> {
         }
         let (bands, bounds) = (self.bands, self.site.bounds());
         let parts = bands.cut_mut(flat_mut(&mut self.pressure)).zip(bands.cut(flat(&self.direction)));
-        let parts = parts.zip(bands.cut(self.sets.of())).enumerate();
+        let parts = parts.zip(bands.cut(self.sets.by_cell())).enumerate();
         parallel::map(parts, |(band, ((pressure, direction), sets))| {
             let first = bands.first(band);
             let cells = pressure.iter_mut().zip(direction).zip(sets).enumerate();
@@ -327,7 +327,7 @@ impl Block<'_> {
         settings: &Settings,
     ) -> ResidualNorms {
         let (bands, bounds) = (self.bands, self.site.bounds());
-        let parts = bands.cut(self.sets.of()).zip(bands.cut(flat(&self.direction)));
+        let parts = bands.cut(self.sets.by_cell()).zip(bands.cut(flat(&self.direction)));
         let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.response)));
         let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.pressure)));
         let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.touch))).enumerate();

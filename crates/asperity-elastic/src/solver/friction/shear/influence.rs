@@ -117,7 +117,7 @@ impl Influence {
 }
 
 /// Returns the vectors of two fields at some cells.
-pub(super) fn at(fields: &[Field; 2], cells: &[usize]) -> Vec<Vector> {
+pub(super) fn vectors_at(fields: &[Field; 2], cells: &[usize]) -> Vec<Vector> {
     let [x, y] = fields.each_ref().map(|field| field.as_slice().expect("standard layout"));
     cells.iter().map(|cell| [x[*cell], y[*cell]]).collect()
 }

@@ -14,7 +14,7 @@ use crate::units::{Metre, SquareMetre};
 use asperity_base::math::active_set::TOLERANCE_REDUCTION;
 use asperity_base::watch::check_stop;
 
-use influence::{Influence, at};
+use influence::{Influence, vectors_at};
 use state::{Freedom, State};
 use steady::SteadySolver;
 
@@ -203,7 +203,8 @@ impl ShearSolver {
     /// Computes the displacement of the cells under their total shear, in double precision.
     fn respond(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
         self.stats.convolutions += 1.0;
-        state.response = at(self.influence.displace(operator, &state.cells, &state.shear), &state.cells);
+        state.response =
+            vectors_at(self.influence.displace(operator, &state.cells, &state.shear), &state.cells);
         state.rounding = 0.0;
     }
 

@@ -6,7 +6,7 @@ use crate::grid::Field;
 use crate::math::{Gmres, gmres};
 use crate::operator::CoupledOperator;
 use crate::solver::friction::disc::{Vector, add, combination, dot, minus, times};
-use crate::solver::friction::shear::influence::{Influence, at};
+use crate::solver::friction::shear::influence::{Influence, vectors_at};
 use crate::solver::friction::shear::state::{Freedom, State};
 use crate::solver::friction::shear::{Answer, Method, PROGRESS, Task};
 use crate::solver::friction::transport::{ShiftByCell, SteadyMethod};
@@ -306,7 +306,7 @@ impl SteadySolver {
 
     /// Marks the cells that receive their own material. Their slip does not depend on the shear.
     fn mark_unyielding(&self, state: &mut State) {
-        let stays = state.cells.iter().map(|cell| self.ahead.of(*cell) == *cell).collect::<Vec<_>>();
+        let stays = state.cells.iter().map(|cell| self.ahead.source(*cell) == *cell).collect::<Vec<_>>();
         state.unyielding = stays.contains(&true).then_some(stays);
     }
 
@@ -319,10 +319,10 @@ impl SteadySolver {
     ) -> Vec<Vector> {
         self.stats.convolutions += 1.0;
         let displaced = self.influence.displace(operator, cells, shear);
-        let arriving = cells.iter().map(|cell| self.ahead.of(*cell)).collect::<Vec<_>>();
-        let mut response: Vec<Vector> = at(displaced, cells)
+        let arriving = cells.iter().map(|cell| self.ahead.source(*cell)).collect::<Vec<_>>();
+        let mut response: Vec<Vector> = vectors_at(displaced, cells)
             .iter()
-            .zip(at(displaced, &arriving))
+            .zip(vectors_at(displaced, &arriving))
             .map(|(u, next)| minus(*u, next))
             .collect();
         if let Some(Proximal { weight, .. }) = &self.proximal {
@@ -353,7 +353,7 @@ impl SteadySolver {
             .iter()
             .enumerate()
             .map(|(k, cell)| {
-                let next = self.ahead.of(*cell);
+                let next = self.ahead.source(*cell);
                 let place = state.cells[k + 1..].binary_search(&next).ok()?;
                 Some(k + 1 + place)
             })
