@@ -130,13 +130,13 @@ impl Observer {
 }
 
 impl Watch for Observer {
-    fn at(&self, progress: &Progress) {
+    fn position(&self, progress: &Progress) {
         let Progress { pass, passes, trial, solved, positions, load, together, .. } = *progress;
         *held(&self.now) = Some((pass, passes, trial, solved, positions, load, together));
     }
 
     fn solving(&self, progress: &Progress) {
-        self.at(progress);
+        self.position(progress);
     }
 
     fn warning(&self, warning: &str) {

@@ -19,7 +19,7 @@ pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) 
     let gap = || pair.initial_gap(&pair.at_rest());
     let rim = cut_off(pressure, gap, pair.pitch(), boundary);
     let of_interface =
-        with::doubts_at_rest(pressure, boundary, || Paraboloid::of(&gap(), pair.pitch()).is_some());
+        with::doubts_at_rest(pressure, boundary, || Paraboloid::fit(&gap(), pair.pitch()).is_some());
     rim.into_iter().chain(of_interface).chain(too_few_cells(spot(pressure, boundary))).collect()
 }
 
@@ -41,7 +41,7 @@ pub(super) fn scar(before: &Pair, after: &Pair, boundary: Boundary) -> Option<St
     let free = [0, 1].into_iter().filter(|axis| !boundary.repeats(*axis));
     let (axis, rim) = free.map(|axis| (axis, at_rim(axis))).max_by(|one, other| one.1.total_cmp(&other.1))?;
     let is_cut_off = rim > SHALLOW * most;
-    (is_cut_off && Paraboloid::of(&before.initial_gap(&before.at_rest()), before.pitch()).is_some()).then(|| {
+    (is_cut_off && Paraboloid::fit(&before.initial_gap(&before.at_rest()), before.pitch()).is_some()).then(|| {
         format!(
             "the scar reaches the rim of the grid along {}: the outermost cells have lost {}, the deepest {}, and what is worn beyond the \
              grid is missing; take a larger `shape`, or let the bodies slide less far",

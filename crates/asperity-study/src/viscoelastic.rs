@@ -164,7 +164,7 @@ fn of_steady(
     let grid = bodies[0].grid();
     let heights = bodies.map(Topography::heights);
     let creeps = relaxations.each_ref().map(Option::is_some);
-    let moving = MovingBody::of(heights, grid.pitch, creeps).map_err(|source| {
+    let moving = MovingBody::from_heights(heights, grid.pitch, creeps).map_err(|source| {
         let hint = "give one body heights that do not change along x, such as `form = \"flat\"`".to_owned();
         case.error_at("steady", source.to_string(), Some(hint))
     })?;

@@ -111,7 +111,7 @@ impl Listener {
 }
 
 impl Watch for Listener {
-    fn at(&self, progress: &Progress) {
+    fn position(&self, progress: &Progress) {
         let Progress { pass, passes, trial, solved, positions, load, together, .. } = *progress;
         let load = format(load, Dimension::Force);
         if self.step == "pass" {

@@ -140,7 +140,7 @@ fn continued(case: &Case, results: &Results) -> Option<String> {
 }
 
 impl Watch for Display {
-    fn at(&self, progress: &Progress) {
+    fn position(&self, progress: &Progress) {
         self.begin();
         let Progress { pass, passes, trial, solved, positions, load, together, .. } = *progress;
         let (place, part, steps) = if self.step == "pass" {

@@ -208,7 +208,15 @@ impl<'a> Step<'a> {
     fn notify(&self, watch: &dyn Watch) {
         if let (Some(load), Some(positions)) = (self.row.load(), self.of) {
             let solved = self.number;
-            watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });
+            watch.position(&Progress {
+                pass: 1,
+                passes: 1,
+                trial: 1,
+                solved,
+                positions,
+                load,
+                together: None,
+            });
         }
         match self.row {
             StepRow::Increment(_) => {}

@@ -334,7 +334,7 @@ impl Solver<'_> {
             drags.push(if distance > 0.0 { (work - pressing) / distance } else { 0.0 });
             let load = contact.load;
             contacts.push(contact);
-            self.watch.at(&Progress { solved: index + 1, load, ..self.progress });
+            self.watch.position(&Progress { solved: index + 1, load, ..self.progress });
         }
         // Bodies that have passed come apart in the step after the last position.
         let mut leaving = 0.0;

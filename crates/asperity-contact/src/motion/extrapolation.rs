@@ -167,7 +167,7 @@ pub(super) struct GridCompliance {
 
 impl GridCompliance {
     /// Computes the compliance of a pair with a boundary.
-    pub(super) fn of(pair: &Pair, boundary: Boundary) -> Self {
+    pub(super) fn new(pair: &Pair, boundary: Boundary) -> Self {
         /// Reach of the alternating sum in cells; it is tapered towards them.
         const REACH: i32 = 32;
         let pitch = pair.pitch();

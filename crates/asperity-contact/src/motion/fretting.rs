@@ -88,7 +88,7 @@ impl Fretting {
             changes,
             interiors: Interior::of_bodies([shape; 2], boundary, Strategy::Overlap, 0.0),
             operator: operators.on(shape),
-            compliance: GridCompliance::of(pair, boundary),
+            compliance: GridCompliance::new(pair, boundary),
             params,
         })
     }
@@ -129,7 +129,7 @@ impl Fretting {
         before: Option<&FrictionalSolution>,
         time: Second,
     ) {
-        let slip = CyclicSlip::of(contact, before);
+        let slip = CyclicSlip::from_contact(contact, before);
         let temperature = match (&self.heat, &bodies.heat) {
             (Some(steady), Some(heat)) => steady.of_cells(heat, &slip.cells),
             _ => self.changes.bulk.map(|bulk| vec![bulk; slip.cells.len()]),

@@ -195,7 +195,7 @@ pub(super) struct PositionData {
 
 impl PositionData {
     /// Returns the data of a position of a `motion` of a `pair` with these temperatures of its bodies.
-    pub(super) fn of(motion: &Motion, pair: &Pair, bulk: [Kelvin; 2]) -> Self {
+    pub(super) fn new(motion: &Motion, pair: &Pair, bulk: [Kelvin; 2]) -> Self {
         let (cells, pitch) = (motion.cells_of_position(pair.lower.columns()), pair.pitch()[0]);
         Self {
             sliding: motion.sliding(Stroke::Forth),
@@ -299,7 +299,7 @@ pub(super) struct CyclicSlip {
 impl CyclicSlip {
     /// Returns the slip of the increment of `contact`, as [`FrictionalSolution::dissipation`] counts it: the
     /// energy is the sum of shear and distance.
-    pub(super) fn of(contact: &FrictionalSolution, before: Option<&FrictionalSolution>) -> Self {
+    pub(super) fn from_contact(contact: &FrictionalSolution, before: Option<&FrictionalSolution>) -> Self {
         let mut found =
             Self { cells: Vec::new(), pressure: Vec::new(), shear: Vec::new(), distance: Vec::new() };
         let cells = contact.normal.pressure.indexed_iter().enumerate();
@@ -440,6 +440,6 @@ pub(super) fn remove(pair: &mut Pair, depth: &[Field; 2], interiors: &[Interior;
     pair.upper.heights += &depth[1];
     for (body, depth) in depth.iter().enumerate() {
         lost.whole[body] += pair.cell_area() * depth.sum();
-        lost.interior[body] += pair.cell_area() * interiors[body].of(depth).sum();
+        lost.interior[body] += pair.cell_area() * interiors[body].slice(depth).sum();
     }
 }

@@ -29,7 +29,7 @@ pub struct Paraboloid {
 impl Paraboloid {
     /// Fits the paraboloid closest to `gap`. Returns `None` if it explains less than nine tenths of the
     /// variance of the gap about a plane: such a gap is rough rather than curved.
-    pub fn of(gap: &Field, pitch: [Metre; 2]) -> Option<Self> {
+    pub fn fit(gap: &Field, pitch: [Metre; 2]) -> Option<Self> {
         /// Smallest fraction of the variance of the gap that a paraboloid must explain.
         const DOMINATES: f64 = 0.9;
         let shape = [gap.nrows(), gap.ncols()];

@@ -205,12 +205,12 @@ impl Solver<'_> {
                 contact.stats.convolutions += latest[index].stats.convolutions;
             }
             let solved = solved.fetch_add(1, Ordering::Relaxed) + 1;
-            self.watch.at(&Progress { solved, load: contact.load, ..self.progress });
+            self.watch.position(&Progress { solved, load: contact.load, ..self.progress });
             Ok((contact, solution))
         };
         let mut after = pair.clone();
         if !self.motion.is_frozen(pair.yields()) {
-            let position_data = PositionData::of(self.motion, pair, self.bulk);
+            let position_data = PositionData::new(self.motion, pair, self.bulk);
             let mut lost = law::nothing_lost(self.laws);
             let mut contacts = Vec::with_capacity(self.positions.len());
             let once = law::once(self.laws);

@@ -189,7 +189,7 @@ impl PlasticSums {
 
 impl PlasticStepRecord {
     /// Sums the `increments` of a step that ends with the bodies of a `contact`.
-    pub(super) fn of(increments: &[Increment], contact: &mut PlasticContact) -> Self {
+    pub(super) fn from_increments(increments: &[Increment], contact: &mut PlasticContact) -> Self {
         let mut sums = PlasticSums::default();
         increments.iter().for_each(|increment| sums.add(increment));
         Self {
@@ -222,7 +222,7 @@ impl PlasticStepRecord {
 
 impl PlasticRecord {
     /// Returns the record of these volumes and of the increments with these sums.
-    pub(super) fn of(volumes: &[PlasticVolume], sums: &PlasticSums) -> Self {
+    pub(super) fn new(volumes: &[PlasticVolume], sums: &PlasticSums) -> Self {
         let (max_plastic_strain, max_plastic_strain_position) = volumes
             .iter()
             .map(|volume| volume.max_strain)
@@ -261,17 +261,17 @@ impl PlasticRecord {
             sums.mismatch = sums.mismatch.max(step.mismatch);
         }
         sums.plastic_work = passes.iter().map(|pass| pass.plastic_work_lower + pass.plastic_work_upper).sum();
-        let regime = Regime::of(&passes);
+        let regime = Regime::from_passes(&passes);
         let (strain_per_pass, shift_per_pass) =
             regime::rates(&passes).filter(|_| regime == Regime::Ratchets).unzip();
-        Self { regime, strain_per_pass, shift_per_pass, ..Self::of(left, &sums) }
+        Self { regime, strain_per_pass, shift_per_pass, ..Self::new(left, &sums) }
     }
 }
 
 impl PassPlasticRecord {
     /// Returns the record of a pass from the states `before` to these volumes. Plastic work is given in the
     /// lower and in the upper body, and under the outer columns of the overlap.
-    pub(super) fn of(
+    pub(super) fn new(
         volumes: &[PlasticVolume],
         before: &[PlasticState],
         [plastic_work_lower, plastic_work_upper]: [Joule; 2],

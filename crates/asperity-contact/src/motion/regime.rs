@@ -12,7 +12,7 @@ const CYCLIC: f64 = 0.05;
 
 impl Regime {
     /// Determines the regime from the records of the passes.
-    pub fn of(passes: &[PassPlasticRecord]) -> Self {
+    pub fn from_passes(passes: &[PassPlasticRecord]) -> Self {
         let work = |pass: &PassPlasticRecord| pass.plastic_work_lower + pass.plastic_work_upper;
         let Some(first) = passes.iter().map(work).find(|work| *work > 0.0) else {
             return Self::Elastic;
@@ -57,7 +57,7 @@ mod tests {
 
     #[test]
     fn passes_tell_what_becomes_of_the_bodies() {
-        let of = |works: &[(f64, f64)]| Regime::of(&passes(works));
+        let of = |works: &[(f64, f64)]| Regime::from_passes(&passes(works));
         assert_eq!(of(&[(0.0, 0.0), (0.0, 0.0)]), Regime::Elastic);
         assert_eq!(of(&[(1.0, 1.0)]), Regime::Undecided);
         assert_eq!(of(&[(1.0, 1.0), (0.4, 1.0), (0.16, 1.0)]), Regime::Undecided);

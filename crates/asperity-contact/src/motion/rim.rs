@@ -46,7 +46,7 @@ impl Interior {
     }
 
     /// Returns the interior part of a field on the body.
-    pub fn of<'a>(&self, field: &'a Field) -> ArrayView2<'a, f64> {
+    pub fn slice<'a>(&self, field: &'a Field) -> ArrayView2<'a, f64> {
         let [columns, across] = &self.ranges;
         field.slice(s![columns.clone(), across.clone()])
     }

@@ -115,7 +115,7 @@ impl Stage {
 
     /// Returns the loading of a step that began at `origin`, and its share of the time of a cycle; 0 without
     /// cycles.
-    pub(super) fn at(&self, step: usize, origin: &Origin) -> (Loading, f64) {
+    pub(super) fn loading_at(&self, step: usize, origin: &Origin) -> (Loading, f64) {
         let n = self.increments;
         let towards = |part: usize| self.towards(part as f64 / n as f64, origin);
         match self.cycles {
@@ -201,7 +201,7 @@ impl Origin {
     }
 
     /// Creates the state of a contact in equilibrium.
-    pub(super) fn of(contact: &Equilibrium) -> Self {
+    pub(super) fn from_contact(contact: &Equilibrium) -> Self {
         let normal = contact.normal();
         Self {
             load: normal.load(),

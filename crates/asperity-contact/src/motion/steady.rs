@@ -33,7 +33,7 @@ impl MovingBody {
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the heights of both bodies change along x.
-    pub fn of(heights: [&Field; 2], pitch: [Metre; 2], creeps: [bool; 2]) -> Result<Self> {
+    pub fn from_heights(heights: [&Field; 2], pitch: [Metre; 2], creeps: [bool; 2]) -> Result<Self> {
         match heights.map(|heights| is_smooth_along_x(heights, pitch)) {
             [true, true] if creeps == [false, true] => Ok(Self::Upper),
             [true, _] => Ok(Self::Lower),
@@ -46,14 +46,14 @@ impl MovingBody {
 }
 
 impl Pair {
-    /// Returns the body through which a steady contact moves, see [`MovingBody::of`].
+    /// Returns the body through which a steady contact moves, see [`MovingBody::from_heights`].
     ///
     /// # Errors
-    /// The errors of [`MovingBody::of`].
+    /// The errors of [`MovingBody::from_heights`].
     pub fn moving_body(&self) -> Result<MovingBody> {
         let creeps =
             self.creep().map_or([false; 2], |creep| creep.each_ref().map(|creep| !creep.terms.is_empty()));
-        MovingBody::of([&self.lower.heights, &self.upper.heights], self.pitch(), creeps)
+        MovingBody::from_heights([&self.lower.heights, &self.upper.heights], self.pitch(), creeps)
     }
 
     /// Returns the operator of the pair that slides steadily at a `speed`, as the contact sees it.

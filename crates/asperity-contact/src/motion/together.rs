@@ -84,7 +84,7 @@ impl Solver<'_> {
             let wanted = residual.min(MIN_PROGRESS * first).max(params.tolerance);
             let progress = (first / state.eta).ln() / (first / wanted).ln();
             let progress = if progress.is_finite() { progress.clamp(0.0, 1.0) } else { 0.0 };
-            self.watch.at(&Progress { load, together: Some(progress), ..self.progress });
+            self.watch.position(&Progress { load, together: Some(progress), ..self.progress });
             wanted
         };
         let watch = OneOfMany(self.watch);

@@ -131,7 +131,7 @@ impl Solver<'_> {
             let (solved, load) = (index + 1, here.load);
             course.contacts.push(here);
             course.add(&increments, &mut contact, pair, position, volumes.boundary);
-            self.watch.at(&Progress { solved, load, ..self.progress });
+            self.watch.position(&Progress { solved, load, ..self.progress });
         }
         let last = self.positions.len() - 1;
         let apart = contact.go_to(Control::Load(0.0)).map_err(|error| self.at_position(last, error))?;
@@ -143,7 +143,7 @@ impl Solver<'_> {
         let mut bodies = undeformed;
         after.iter().for_each(|volume| displace(&mut bodies, volume.body, &volume.displacement, 1.0));
         let Course { work, at_rim, steps, contacts } = course;
-        let record = PassPlasticRecord::of(&after, volumes.states(), work, at_rim);
+        let record = PassPlasticRecord::new(&after, volumes.states(), work, at_rim);
         let plastic_pass = Some(ElastoPlasticPass { volumes: after, steps, record, states_under_load });
         Ok(Pass { plastic_pass, ..Pass::new(contacts, bodies, self.laws) })
     }
@@ -210,7 +210,7 @@ impl Course {
         position: &Position,
         boundary: Boundary,
     ) {
-        self.steps.push(PlasticStepRecord::of(increments, contact));
+        self.steps.push(PlasticStepRecord::from_increments(increments, contact));
         for increment in increments {
             self.work_of(increment, contact.sides());
             if boundary.repeats(0) {

@@ -41,7 +41,7 @@ pub struct StepCell {
 /// Observes a computation from the solving threads, and may stop it.
 pub trait Watch: Sync {
     /// Called after a position has been solved.
-    fn at(&self, progress: &Progress);
+    fn position(&self, progress: &Progress);
 
     /// Called while a static contact is being solved; [`Progress::together`] is its progress.
     fn solving(&self, _: &Progress) {}
@@ -71,7 +71,7 @@ pub trait Watch: Sync {
 
 /// The watch of an unobserved computation.
 impl Watch for () {
-    fn at(&self, _: &Progress) {}
+    fn position(&self, _: &Progress) {}
 
     fn stop(&self) -> bool {
         false
@@ -82,7 +82,7 @@ impl Watch for () {
 pub struct StopsWith<'a>(pub &'a (dyn Fn() -> bool + Sync));
 
 impl Watch for StopsWith<'_> {
-    fn at(&self, _: &Progress) {}
+    fn position(&self, _: &Progress) {}
 
     fn stop(&self) -> bool {
         self.0()

@@ -58,7 +58,7 @@ impl Yielding {
             other => other,
         })?;
         self.sums.add(&increment);
-        let flow = PlasticStepRecord::of(std::slice::from_ref(&increment), &mut self.contact);
+        let flow = PlasticStepRecord::from_increments(std::slice::from_ref(&increment), &mut self.contact);
         let apart = || Equilibrium::Frictionless(Box::new(self.apart(gap)));
         Ok((self.contact.equilibrium().cloned().unwrap_or_else(apart), flow))
     }
@@ -107,7 +107,7 @@ impl Yielding {
     /// Adds the plastic state under the last load to the contact there.
     pub(super) fn loaded(&mut self, mut contact: LoadedContact) -> LoadedContact {
         let volumes = self.volumes();
-        contact.record.plastic = Some(PlasticRecord::of(&volumes, &self.sums));
+        contact.record.plastic = Some(PlasticRecord::new(&volumes, &self.sums));
         contact.plastic_result = Some(PlasticResult { volumes, residual: Vec::new() });
         contact
     }
@@ -121,7 +121,7 @@ impl Yielding {
         if let Some(plastic) = &mut contact.record.plastic {
             (plastic.products, plastic.mismatch) = (self.sums.products, self.sums.mismatch);
             plastic.residual =
-                self.unloading.map(|_| PlasticRecord::of(&residual, &self.sums).into_residual());
+                self.unloading.map(|_| PlasticRecord::new(&residual, &self.sums).into_residual());
         }
         if let Some(result) = &mut contact.plastic_result {
             result.residual = residual;

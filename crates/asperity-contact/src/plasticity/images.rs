@@ -29,7 +29,7 @@ pub(super) struct Coarsening {
 }
 
 impl Coarsening {
-    pub(super) fn of(cells: usize) -> Self {
+    pub(super) fn new(cells: usize) -> Self {
         let mut factor = 1;
         while cells >= 2 * COARSE_CELLS * factor {
             factor *= 2;
@@ -58,7 +58,7 @@ pub(super) struct Images {
 
 impl Images {
     pub(super) fn new(grid: &Grid, layers: &Layers, young: Pascal, poisson: f64) -> Self {
-        let coarsening = grid.shape.map(Coarsening::of);
+        let coarsening = grid.shape.map(Coarsening::new);
         let coarse = Grid {
             shape: coarsening.map(|c| c.cells),
             pitch: [0, 1].map(|axis| grid.pitch[axis] * coarsening[axis].factor as f64),

@@ -11,7 +11,7 @@ pub(super) struct Lanes([f64; 4]);
 
 impl Lanes {
     #[inline(always)]
-    pub(super) fn of(plus: Complex64, minus: Complex64) -> Self {
+    pub(super) fn new(plus: Complex64, minus: Complex64) -> Self {
         Self([plus.re, plus.im, minus.re, minus.im])
     }
 

@@ -420,7 +420,7 @@ mod tests {
             let strain: Vec<[[Complex64; 2]; COMPONENTS]> =
                 (0..4).map(|_| std::array::from_fn(|_| [value(), value()])).collect();
             let mut waves: Vec<[Lanes; COMPONENTS]> =
-                strain.iter().map(|layer| layer.map(|[plus, minus]| Lanes::of(plus, minus))).collect();
+                strain.iter().map(|layer| layer.map(|[plus, minus]| Lanes::new(plus, minus))).collect();
             sweep.residual(bins, &mut waves, &mut sweep.scratch());
             for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
                 let qx = sign * angular_frequency(bins[0], 12, 0.9);

@@ -103,7 +103,7 @@ impl Waves {
             |WavesScratch { fft, columns: [column, sum], .. }, (ky, mut to)| {
                 sum.fill(Complex64::default());
                 for plane in (0..present.len()).filter(|plane| present[*plane]) {
-                    planes.column_forward(planes.at(harmonics, plane, ky), column, fft);
+                    planes.column_forward(planes.harmonics_at(harmonics, plane, ky), column, fft);
                     add([plane, ky], column, sum);
                 }
                 planes.column_back(sum, to[0], fft);
@@ -142,7 +142,7 @@ impl Waves {
                             let opposite = column[..1].iter().chain(column.iter().rev());
                             waves
                                 .zip(column.iter().zip(opposite))
-                                .for_each(|(wave, (plus, minus))| *wave = Lanes::of(*plus, *minus));
+                                .for_each(|(wave, (plus, minus))| *wave = Lanes::new(*plus, *minus));
                         } else {
                             waves.for_each(|wave| *wave = Lanes::default());
                         }

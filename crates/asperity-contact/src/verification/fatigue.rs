@@ -26,7 +26,7 @@ fn line() -> Result<Vec<Check>> {
     let depths = [0.5, 1.0];
     let exact = |depth: f64, friction: f64| {
         let at = |k: i32| contact.stress(0.001 * f64::from(k), depth, POISSON, friction);
-        criterion.of(&(-12_000..=12_000).map(at).collect::<Vec<Stress>>())[0]
+        criterion.evaluate(&(-12_000..=12_000).map(at).collect::<Vec<Stress>>())[0]
     };
     // The largest of what the positions see of a smooth path, and a ball through some of them.
     let order = |finest| Expected::Order { order: 0.8..=4.0, finest };

@@ -180,7 +180,10 @@ fn creep() -> Result<Vec<Check>> {
             let found =
                 solve_in_time(&mut operator, 1.0, &mut memory, &gap, control, duration, None, &PARAMS, &())?;
             if step % (STEPS / 2) == 0 {
-                errors.push(relative(found.approach, sphere_under_step(1.0, load, creep.at(time(step)))[0]));
+                errors.push(relative(
+                    found.approach,
+                    sphere_under_step(1.0, load, creep.compliance_at(time(step)))[0],
+                ));
             }
         }
         Ok([errors[0], errors[1], errors[2]])

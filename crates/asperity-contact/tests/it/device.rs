@@ -230,7 +230,7 @@ fn passes_in_one_batch_are_those_of_the_processor() {
                 .with_plastic_update(update)
                 .with_load_tolerance(1e-6);
             let params = Params::new().with_tolerance(1e-8).with_device(device);
-            Kept::of(Simulation::new(pair(), boundary, motion, params).unwrap())
+            Kept::run(Simulation::new(pair(), boundary, motion, params).unwrap())
         };
         let (found, expected) = (run(Device::Host), run(Device::Cpu));
         assert_eq!((found.passes.len(), found.steps.len()), (2, expected.steps.len()));

@@ -27,7 +27,7 @@ fn a_line_contact_has_its_numbers() {
     assert!((LINE.half_width() - 1.0).abs() < 1e-15 && (LINE.peak_pressure() - 1.0).abs() < 1e-15);
     let shear = history(0.5, 0.0).iter().fold(0.0f64, |most, stress| most.max(stress.xz));
     assert!((shear - 0.25).abs() < 1e-6, "{shear}");
-    let of = |depth: f64, friction: f64| criterion().of(&history(depth, friction))[0];
+    let of = |depth: f64, friction: f64| criterion().evaluate(&history(depth, friction))[0];
     let depths = [1e-9, 0.1, 0.25, 0.5, 0.75, 1.0, 1.5];
     for (friction, expected) in [
         (0.0, [0.1, 0.09785, 0.143584, 0.169172, 0.167828, 0.156657, 0.129594]),
@@ -45,7 +45,7 @@ fn a_line_contact_has_its_numbers() {
 
 #[test]
 fn simple_loads_and_invariances() {
-    let of = |history: &[Stress]| criterion().of(history)[0];
+    let of = |history: &[Stress]| criterion().evaluate(history)[0];
     let cycle = |stress: fn(f64) -> Stress| -> Vec<Stress> {
         (0..400).map(|k| stress((std::f64::consts::TAU * f64::from(k) / 400.0).sin())).collect()
     };
@@ -101,8 +101,8 @@ fn random_passes_are_those_of_their_stresses_one_by_one() {
                 .map(|tractions| Subsurface::new(grid, boundary, 0.3, tractions).plane(depth))
                 .collect();
             for cell in ndarray::indices(shape).into_iter().map(|(i, j)| [i, j]) {
-                let history: Vec<Stress> = planes.iter().map(|plane| plane.at(cell)).collect();
-                let [f, radius] = criterion().of(&history);
+                let history: Vec<Stress> = planes.iter().map(|plane| plane.stress_at(cell)).collect();
+                let [f, radius] = criterion().evaluate(&history);
                 assert!((found.f[cell] - f).abs() < 1e-8, "case {case}: {} {f}", found.f[cell]);
                 assert!((found.radius[cell] - radius).abs() < 1e-9);
                 let shears = || history.iter().map(|stress| stress.xz);

@@ -101,7 +101,7 @@ fn surfaces_between_columns_meet_and_wear_as_by_dense_interpolation() {
         let params = Params::default().with_tolerance(1e-9);
         let before = case.pair();
         let simulation = Simulation::new(before.clone(), case.boundary, motion, params).unwrap();
-        let kept = Kept::of(simulation.with_changes(Changes::by(archard(case.wear))).unwrap());
+        let kept = Kept::run(simulation.with_changes(Changes::by(archard(case.wear))).unwrap());
         // The positions share one round.
         let stride = columns as f64 / columns.div_ceil(case.stride) as f64;
         let slip = stride * PITCH * (speed_upper - speed_lower).abs();
@@ -196,7 +196,7 @@ fn grooves_along_the_sliding_wear_as_by_whole_cells() {
         let k = 1e-15 / (1.0 - speed_lower);
         let params = Params::default().with_tolerance(1e-10);
         let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params).unwrap();
-        Kept::of(simulation.with_changes(Changes::by(archard([k, 2.0 * k]))).unwrap())
+        Kept::run(simulation.with_changes(Changes::by(archard([k, 2.0 * k]))).unwrap())
     };
     let whole = run(0.0);
     for speed_lower in [0.3, -0.45] {
@@ -220,7 +220,7 @@ fn two(columns: [usize; 2], materials: [&Material; 2], seed: u64) -> Pair {
 
 fn run(pair: Pair, boundary: Boundary, motion: Motion, wear: [f64; 2]) -> Kept {
     let simulation = Simulation::new(pair, boundary, motion, Params::default().with_tolerance(1e-9)).unwrap();
-    Kept::of(simulation.with_changes(Changes::by(archard(wear))).unwrap())
+    Kept::run(simulation.with_changes(Changes::by(archard(wear))).unwrap())
 }
 
 fn furthest(a: &Field, b: &Field) -> f64 {
@@ -295,7 +295,7 @@ fn bodies_that_yield_step_by_step_go_on_yielding_on_the_way_back() {
     let material = steel(2e9);
     let motion = OVERLAP.with_plastic_update(PlasticUpdate::Step).with_path(Path::Reciprocating);
     let pair = two([12, 12], [&material; 2], 3);
-    let kept = Kept::of(Simulation::new(pair, Boundary::FREE, motion, Params::default()).unwrap());
+    let kept = Kept::run(Simulation::new(pair, Boundary::FREE, motion, Params::default()).unwrap());
     let n = kept.steps.len() / 2;
     assert!(kept.steps[n..].iter().all(|step| step.convolutions > 0.0));
     let volume = |steps: &[StepRecord]| steps.iter().map(|step| step.plastic_volume).sum::<f64>();
@@ -341,7 +341,7 @@ fn jumps_are_where_passes_repeat() {
         assert!(!motion.repeats() && matches!(accelerated(motion), Err(Error::Unsupported(_))));
     }
     let motion = motion.with_path(Path::Reciprocating);
-    let few = Kept::of(accelerated(motion).unwrap());
+    let few = Kept::run(accelerated(motion).unwrap());
     let all = run(pair.clone(), Boundary::PERIODIC, motion, [1e-15; 2]);
     assert!(few.passes.len() < 20 && all.passes.len() == 40, "{}", few.passes.len());
     let [few, all] = [&few, &all].map(|kept| &kept.last().lower.heights);
@@ -418,7 +418,7 @@ fn a_fresh_counter_body_begins_anew_in_each_pass() {
         body.heights = upper(pass);
         Ok(body)
     };
-    let kept = Kept::of(simulation.with_counter(counter).unwrap());
+    let kept = Kept::run(simulation.with_counter(counter).unwrap());
     let mut pair = first;
     for (pass, after) in (1..).zip(&kept.pairs) {
         pair.upper.heights = upper(pass);
@@ -455,7 +455,7 @@ fn a_pass_there_and_back_is_heated_without_a_break() {
         let pair = two([16, 16], [&steel(f64::INFINITY); 2], 4);
         let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
         let changes = Changes::default().with_bulk([300.0; 2]).with_heat([thermal; 2], 1);
-        let kept = Kept::of(simulation.with_changes(changes).unwrap());
+        let kept = Kept::run(simulation.with_changes(changes).unwrap());
         kept.steps.iter().map(|step| step.heat.unwrap().max_flash_temperature - 300.0).collect::<Vec<_>>()
     };
     let (there, both) = (run(Path::OneWay), run(Path::Reciprocating));

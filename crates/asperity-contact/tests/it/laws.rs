@@ -63,7 +63,7 @@ fn run(hardness: f64, update: PlasticUpdate) -> Kept {
         .with_load_tolerance(1e-4)
         .with_friction(None);
     let simulation = Simulation::new(pair(hardness), Boundary::FREE, motion, Params::default());
-    Kept::of(simulation.unwrap().with_changes(Changes::by(Wear)).unwrap())
+    Kept::run(simulation.unwrap().with_changes(Changes::by(Wear)).unwrap())
 }
 
 /// V = k W s, and the ledger of each body: its lost volume is that removed by its laws.
@@ -156,7 +156,7 @@ fn oxidised(warmed: bool) -> (Vec<PassRecord>, Field) {
     let thermal = Thermal::new(46.0, 460.0, 7850.0).unwrap();
     let changes = Changes::by(Oxidation).with_bulk([400.0, 500.0]).with_acceleration(Acceleration::default());
     let changes = if warmed { changes.with_heat([thermal; 2], 1) } else { changes };
-    let kept = Kept::of(simulation.with_changes(changes).unwrap());
+    let kept = Kept::run(simulation.with_changes(changes).unwrap());
     let oxide = kept.last().lower.state["oxide"].values.clone();
     (kept.passes, oxide)
 }

@@ -188,7 +188,7 @@ fn a_body_that_passes_over_another_has_no_rims_at_its_sides() {
         .with_load_tolerance(1e-6)
         .with_friction(None);
     let params = Params::default().with_tolerance(1e-8);
-    let kept = Kept::of(Simulation::new(pair.clone(), ALONG_Y, motion, params).unwrap());
+    let kept = Kept::run(Simulation::new(pair.clone(), ALONG_Y, motion, params).unwrap());
     let contacts = &kept.contacts[0];
     assert!(contacts.len() > 10);
     let load = kept.force(0) / contacts.len() as f64;

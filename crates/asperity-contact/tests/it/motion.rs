@@ -645,7 +645,7 @@ fn run(pair: Pair, motion: Motion) -> Kept {
 }
 
 fn continued(simulation: Simulation) -> Kept {
-    let kept = Kept::of(simulation);
+    let kept = Kept::run(simulation);
     let loads: Vec<f64> = kept.contacts.iter().flatten().map(|contact| contact.load).collect();
     assert_eq!(loads, kept.steps.iter().map(|step| step.load).collect::<Vec<_>>());
     for pass in &kept.passes {

@@ -57,7 +57,7 @@ fn params(method: Method) -> Params {
 }
 
 fn run(pair: Pair, motion: Motion, method: Method) -> Kept {
-    Kept::of(Simulation::new(pair, Boundary::FREE, motion, params(method)).unwrap())
+    Kept::run(Simulation::new(pair, Boundary::FREE, motion, params(method)).unwrap())
 }
 
 fn loads(contacts: &[Contact]) -> Vec<f64> {

@@ -75,18 +75,18 @@ fn hertz(times: f64) -> f64 {
 
 fn regime(kept: &Kept) -> Regime {
     let passes: Vec<_> = kept.passes.iter().filter_map(|pass| pass.plastic).collect();
-    Regime::of(&passes)
+    Regime::from_passes(&passes)
 }
 
 #[test]
 fn below_first_yield_nothing_flows_and_the_contacts_are_elastic() {
-    let kept = Kept::of(rolling(hertz(2.5), 2, 0.0));
+    let kept = Kept::run(rolling(hertz(2.5), 2, 0.0));
     let shape = [32, 16];
     let pair = Pair::new(surface(shape, flat), surface(shape, ball), [&steel(f64::INFINITY); 2]).unwrap();
     let motion = Motion::new(shift(1.0, 0.0), Control::Load(hertz(2.5)))
         .with_load_control(LoadControl::Step)
         .with_passes(2);
-    let elastic = Kept::of(Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap());
+    let elastic = Kept::run(Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap());
     for (a, b) in kept.steps.iter().zip(&elastic.steps) {
         assert!((a.max_pressure / b.max_pressure - 1.0).abs() < 1e-5 && a.contact_area == b.contact_area);
         assert_eq!(a.plastic.map(|flow| (flow.yielded_cells, flow.products)), Some((0, 0)));
@@ -98,7 +98,7 @@ fn below_first_yield_nothing_flows_and_the_contacts_are_elastic() {
 
 #[test]
 fn a_ball_rolls_a_groove_that_shakes_down_at_a_moderate_load() {
-    let kept = Kept::of(rolling(hertz(3.6), 8, 0.0));
+    let kept = Kept::run(rolling(hertz(3.6), 8, 0.0));
     let flow = |pass: usize| kept.passes[pass].plastic.unwrap();
     assert_eq!(
         regime(&kept),
@@ -120,11 +120,11 @@ fn a_ball_rolls_a_groove_that_shakes_down_at_a_moderate_load() {
 
 #[test]
 fn a_high_load_goes_on_flowing_and_kinematic_hardening_makes_that_cyclic() {
-    let kept = Kept::of(rolling(hertz(6.5), 3, 0.0));
+    let kept = Kept::run(rolling(hertz(6.5), 3, 0.0));
     assert!(matches!(regime(&kept), Regime::Undecided | Regime::Ratchets));
     let work = |kept: &Kept, pass: usize| kept.passes[pass].plastic.unwrap().plastic_work_lower;
     assert!(work(&kept, 2) > 0.02 * work(&kept, 0));
-    let hard = Kept::of(rolling(hertz(6.5), 3, 60e9));
+    let hard = Kept::run(rolling(hertz(6.5), 3, 60e9));
     assert!(work(&hard, 0) < work(&kept, 0));
     let net = |kept: &Kept| kept.passes[2].plastic.unwrap().net_strain_lower;
     assert!(net(&hard) < net(&kept), "{} {}", net(&hard), net(&kept));
@@ -140,7 +140,7 @@ fn one_approach_bears_the_mean_load_and_later_passes_begin_from_it() {
         .unwrap()
         .with_plastic([Some(flowing(shape, Boundary::PERIODIC, 0.0)), None], PlasticParams::new())
         .unwrap();
-    let kept = Kept::of(simulation);
+    let kept = Kept::run(simulation);
     for pass in &kept.passes {
         assert!((pass.mean_load / hertz(4.5) - 1.0).abs() < 1e-4, "{pass:?}");
         assert!(pass.outer_iterations <= 8, "{} trials", pass.outer_iterations);
@@ -166,7 +166,7 @@ fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
         let pair = Pair::new(lower, upper, [&steel(f64::INFINITY); 2]).unwrap();
         let bodies = [(); 2].map(|()| Some(flowing(shape, boundary, 0.0)));
         let simulation = Simulation::new(pair, boundary, motion(strategy), params).unwrap();
-        Kept::of(simulation.with_plastic(bodies, flow).unwrap())
+        Kept::run(simulation.with_plastic(bodies, flow).unwrap())
     };
     let one = run([surface(shape, flat), surface(shape, ball)], shift(0.0, 1.0));
     let other = run([surface(shape, |x, y| -ball(x, y)), surface(shape, flat)], shift(-1.0, 0.0));
@@ -194,7 +194,7 @@ fn a_body_that_lies_between_columns_flows_as_much() {
         .with_passes(2);
     let bodies = [(); 2].map(|()| Some(flowing(shape, Boundary::PERIODIC, 0.0)));
     let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
-    let kept = Kept::of(simulation.with_plastic(bodies, PlasticParams::new()).unwrap());
+    let kept = Kept::run(simulation.with_plastic(bodies, PlasticParams::new()).unwrap());
     let flow = kept.passes[0].plastic.unwrap();
     assert!(flow.plastic_work_lower > 0.0 && flow.plastic_work_upper > 0.0, "{flow:?}");
     assert!(kept.passes[1].plastic.unwrap().max_plastic_strain_upper >= flow.max_plastic_strain_upper);
@@ -214,7 +214,7 @@ fn an_overlap_far_from_all_rims_is_a_shift() {
     let motion =
         Motion::new(Strategy::Overlap, Control::Approach(approach)).with_load_control(LoadControl::Pass);
     let overlap = Simulation::new(pair, free, motion, params).unwrap();
-    let overlap = Kept::of(
+    let overlap = Kept::run(
         overlap.with_plastic([Some(flowing(track, free, 0.0)), None], PlasticParams::new()).unwrap(),
     );
     let middle: Vec<&StepRecord> =
@@ -224,7 +224,7 @@ fn an_overlap_far_from_all_rims_is_a_shift() {
     let motion = Motion::new(shift(0.0, 1.0), Control::Load(load)).with_load_control(LoadControl::Step);
     let periodic = Boundary::PERIODIC;
     let shifted = Simulation::new(pair, periodic, motion, params).unwrap();
-    let shifted = Kept::of(
+    let shifted = Kept::run(
         shifted.with_plastic([Some(flowing(ring, periodic, 0.0)), None], PlasticParams::new()).unwrap(),
     );
     // The pass on the ring begins and ends in its middle: the groove is evaluated where the ball has been
@@ -253,7 +253,7 @@ fn friction_shears_the_body_the_way_that_it_slides() {
             .with_friction(friction);
         let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
         let bodies = [Some(flowing(shape, Boundary::PERIODIC, 0.0)), None];
-        Kept::of(simulation.with_plastic(bodies, PlasticParams::new()).unwrap()).passes[0].plastic.unwrap()
+        Kept::run(simulation.with_plastic(bodies, PlasticParams::new()).unwrap()).passes[0].plastic.unwrap()
     };
     let [none, forth, back] = [run(None, 1.0), run(Some(0.3), 1.0), run(Some(0.3), -1.0)];
     assert!(forth.plastic_work_lower > 1.2 * none.plastic_work_lower, "{none:?} {forth:?}");

@@ -49,7 +49,7 @@ fn changing(pair: Pair, motion: Motion, changes: Changes) -> Simulation {
 fn run_in(hardness: f64, passes: usize, acceleration: Acceleration) -> Kept {
     let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(passes).with_stride(4);
     let changes = Changes::by(archard([4e-15; 2])).with_acceleration(acceleration);
-    Kept::of(changing(rough(hardness, 16), motion, changes))
+    Kept::run(changing(rough(hardness, 16), motion, changes))
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn jumps_lead_where_all_passes_do_and_within_their_bound() {
 #[test]
 fn steadily_worn_passes_begin_where_the_last_ones_lead() {
     let motion = Motion::new(SLIDE, Control::Load(0.8)).with_passes(8).with_stride(16);
-    let kept = Kept::of(changing(rough(f64::INFINITY, 64), motion, Changes::by(archard([1e-15; 2]))));
+    let kept = Kept::run(changing(rough(f64::INFINITY, 64), motion, Changes::by(archard([1e-15; 2]))));
     let convolutions: Vec<f64> = kept.passes.iter().map(|pass| pass.convolutions / 4.0).collect();
     // Two changes are known after the third pass.
     assert!(
@@ -126,7 +126,7 @@ fn flat_film(passes: usize, jump: usize, law: FilmLaw) -> f64 {
     let films = Films::new([Some(Film::new(law, 10e-9, None).unwrap()), None], &pair).unwrap();
     let acceleration = Acceleration::default().with_tolerance(1e9).with_max_jump(jump);
     let changes = Changes::by(films).with_bulk([373.15; 2]).with_acceleration(acceleration);
-    let kept = Kept::of(changing(pair, motion, changes));
+    let kept = Kept::run(changing(pair, motion, changes));
     let film = &kept.last().lower.state[FILM].values;
     let mean = film.mean().unwrap();
     assert!(film.iter().all(|f| *f >= 0.0 && (f - mean).abs() <= 1e-9 * mean));
@@ -190,7 +190,7 @@ fn a_law_that_does_not_repeat_acts_once_in_a_jump_wherever_it_is_added() {
     let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(20).with_stride(4);
     let changes = Changes::by(archard([4e-15; 2])).with_law(Once).with_acceleration(Acceleration::default());
     // Its volume counts like plastic deformation: the wear of an extrapolation must exceed it.
-    let kept = Kept::of(changing(rough(f64::INFINITY, 16), motion, changes));
+    let kept = Kept::run(changing(rough(f64::INFINITY, 16), motion, changes));
     assert_eq!(represented(&kept), 20);
     let volume = 256.0 * PITCH * PITCH * 1e-9;
     assert!(kept.passes.iter().all(|pass| (pass.lost("once")[0] / volume - 1.0).abs() < 1e-9));
@@ -202,7 +202,7 @@ fn what_is_not_accelerated_keeps_nothing_for_jumps() {
     for (acceleration, keeps) in [(Acceleration::NONE, false), (Acceleration::default(), true)] {
         let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(2).with_stride(4);
         let changes = Changes::by(archard([4e-15; 2])).with_acceleration(acceleration);
-        let kept = Kept::of(changing(rough(f64::INFINITY, 16), motion, changes));
+        let kept = Kept::run(changing(rough(f64::INFINITY, 16), motion, changes));
         assert!(kept.warm_starts.len() == 2);
         assert!(kept.warm_starts.iter().all(|warm| warm.extrapolation.is_some() == keeps));
     }
@@ -330,7 +330,7 @@ fn heated(speed: f64, passes: usize, every: usize) -> Kept {
     let steel = Thermal::new(46.0, 460.0, 7850.0).unwrap();
     let changes = Changes::by(films).with_bulk([373.15; 2]);
     let changes = if every > 0 { changes.with_heat([steel; 2], every) } else { changes };
-    Kept::of(changing(pair, motion, changes))
+    Kept::run(changing(pair, motion, changes))
 }
 
 #[test]
@@ -441,7 +441,7 @@ fn a_solid_lubricant_lasts_as_long_as_its_thickness_over_k_p() {
                 .with_stride(4)
                 .with_load_control(LoadControl::Step);
             let changes = Changes::by(films).with_acceleration(acceleration);
-            let kept = Kept::of(changing(pair, motion, changes));
+            let kept = Kept::run(changing(pair, motion, changes));
             let film = &kept.last().lower.state[FILM].values;
             assert!(
                 film.iter().all(|f| (f - left).abs() < 1e-6 * thickness),

@@ -109,5 +109,5 @@ fn slide(
         .with_plastic_update(PlasticUpdate::Pass)
         .with_load_tolerance(1e-4)
         .with_friction(friction);
-    Kept::of(Simulation::new(pair, Boundary::FREE, motion, PARAMS).unwrap()).contacts.remove(0)
+    Kept::run(Simulation::new(pair, Boundary::FREE, motion, PARAMS).unwrap()).contacts.remove(0)
 }

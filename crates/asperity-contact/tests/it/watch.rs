@@ -35,7 +35,7 @@ impl Patience {
 }
 
 impl Watch for Patience {
-    fn at(&self, _: &Progress) {
+    fn position(&self, _: &Progress) {
         self.solved.fetch_add(1, Ordering::Relaxed);
     }
 

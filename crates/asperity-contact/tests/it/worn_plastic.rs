@@ -82,7 +82,7 @@ fn undeformed(kept: &Kept, pass: usize) -> Field {
 #[test]
 fn the_worn_volume_is_that_of_archard_and_the_strain_stays_with_its_material() {
     const WEAR: f64 = 2e-14;
-    let kept = Kept::of(yielding(
+    let kept = Kept::run(yielding(
         simulation(pair([f64::INFINITY; 2]), motion(4.0, 3))
             .with_changes(Changes::by(archard([WEAR, 0.0])))
             .unwrap(),
@@ -103,7 +103,7 @@ fn the_worn_volume_is_that_of_archard_and_the_strain_stays_with_its_material() {
         before = now;
     }
     // Little wear changes little.
-    let unworn = Kept::of(yielding(simulation(pair([f64::INFINITY; 2]), motion(4.0, 3)), 1.5e9));
+    let unworn = Kept::run(yielding(simulation(pair([f64::INFINITY; 2]), motion(4.0, 3)), 1.5e9));
     let strain = |kept: &Kept| kept.passes[2].plastic.unwrap().max_plastic_strain_lower;
     let ratio = strain(&kept) / strain(&unworn);
     assert!((ratio - 1.0).abs() < 0.1 && ratio != 1.0, "{ratio}");
@@ -112,8 +112,8 @@ fn the_worn_volume_is_that_of_archard_and_the_strain_stays_with_its_material() {
 #[test]
 fn milling_a_layer_off_brings_the_strain_up_by_one_and_all_of_them_leave_a_plane() {
     let body = || simulation(pair([f64::INFINITY; 2]), motion(4.0, 1));
-    let as_it_was = Kept::of(yielding(body(), 1.5e9));
-    let milled = Kept::of(yielding(body().with_changes(Changes::by(Milling(LAYER))).unwrap(), 1.5e9));
+    let as_it_was = Kept::run(yielding(body(), 1.5e9));
+    let milled = Kept::run(yielding(body().with_changes(Changes::by(Milling(LAYER))).unwrap(), 1.5e9));
     let [was, is] = [&as_it_was, &milled].map(|kept| &kept.volumes[0][0].state);
     assert!(was.accumulated.iter().any(|strain| *strain > 0.0));
     for ((layer, component, ix, iy), now) in is.strain.indexed_iter() {
@@ -125,7 +125,8 @@ fn milling_a_layer_off_brings_the_strain_up_by_one_and_all_of_them_leave_a_plane
     let mut alone = flowing(1.5e9);
     alone.restore(is);
     assert!((alone.displacement() - &milled.volumes[0][0].displacement).iter().all(|d| d.abs() < 1e-18));
-    let through = Kept::of(yielding(body().with_changes(Changes::by(Milling(10.0 * LAYER))).unwrap(), 1.5e9));
+    let through =
+        Kept::run(yielding(body().with_changes(Changes::by(Milling(10.0 * LAYER))).unwrap(), 1.5e9));
     assert!(through.volumes[0][0].state.strain.iter().all(|strain| strain.abs() < 1e-15));
     assert!((&through.pairs[0].lower.heights + 10.0 * LAYER).iter().all(|height| height.abs() < 1e-15));
 }
@@ -173,7 +174,7 @@ fn yielding_bodies_have_the_flash_temperature_of_their_own_contacts() {
         .with_changes(Changes::default().with_bulk(BULK).with_heat(thermal(), 1))
         .unwrap();
     for warm in [yielding(flows, 1.5e9), flattens] {
-        let kept = Kept::of(warm);
+        let kept = Kept::run(warm);
         for (pass, contacts) in kept.contacts.iter().enumerate() {
             let expected = temperatures(&kept.pairs[0], contacts);
             for (index, (contact, expected)) in contacts.iter().zip(expected).enumerate() {
@@ -193,7 +194,7 @@ fn yielding_bodies_have_the_flash_temperature_of_their_own_contacts() {
 fn heat_and_wear_at_each_position_are_those_after_the_pass_where_nothing_changes() {
     let of = |update, wear: f64| {
         let simulation = simulation(pair([60e9, f64::INFINITY]), motion(4.0, 1).with_plastic_update(update));
-        Kept::of(
+        Kept::run(
             simulation
                 .with_changes(Changes::by(archard([wear, 0.0])).with_bulk(BULK).with_heat(thermal(), 1))
                 .unwrap(),
@@ -218,8 +219,8 @@ fn heat_and_wear_at_each_position_are_those_after_the_pass_where_nothing_changes
 #[test]
 fn a_hardness_opposite_a_body_that_never_yields_is_that_of_elastic_bodies() {
     let hard = [f64::INFINITY, 2.5e9];
-    let elastic = Kept::of(simulation(pair(hard), motion(4.0, 2)));
-    let both = Kept::of(yielding(simulation(pair(hard), motion(4.0, 2)), 1e12));
+    let elastic = Kept::run(simulation(pair(hard), motion(4.0, 2)));
+    let both = Kept::run(yielding(simulation(pair(hard), motion(4.0, 2)), 1e12));
     let [[_, a], [_, b]] = [&elastic, &both].map(|kept| kept.passes[0].lost("plastic"));
     assert!(a > 1e-18 && (a / b - 1.0).abs() < 1e-4, "{a:e} {b:e}");
     let differences = &elastic.pairs[1].upper.heights - &both.pairs[1].upper.heights;

@@ -27,7 +27,7 @@ pub(super) fn predict(
     boundary: Boundary,
     control: Control,
 ) -> HertzPrediction {
-    let Some(paraboloid) = Paraboloid::of(gap, pitch) else { return HertzPrediction::default() };
+    let Some(paraboloid) = Paraboloid::fit(gap, pitch) else { return HertzPrediction::default() };
     let mut prediction = HertzPrediction { curved: true, ..HertzPrediction::default() };
     let touch = gap.iter().copied().fold(f64::INFINITY, f64::min);
     let presses = match control {
@@ -221,7 +221,7 @@ pub fn cut_off(
         .filter(|(axis, side)| !boundary.repeats(*axis) && side.rim > 0.0)
         .filter(|(_, side)| side.rim >= side.inside || side.line >= SHARE_OF_A_LINE * side.fullest)
         .max_by(|one, other| one.1.rim.total_cmp(&other.1.rim))?;
-    let paraboloid = Paraboloid::of(&gap(), pitch)?;
+    let paraboloid = Paraboloid::fit(&gap(), pitch)?;
     let value = |value| units::format(value, Dimension::Pressure);
     let way_out = if paraboloid.is_endless() {
         format!("{} gives a line contact no ends", boundary_of_a_line(paraboloid.line()))

@@ -182,7 +182,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         let (numbers, doubts) = case.interface.numbers(&lower_grid, &gap, boundary, estimate.modulus)?;
         estimate.warnings.extend(doubts);
         estimate.interface = numbers;
-        Paraboloid::of(&gap, lower_grid.pitch).is_some()
+        Paraboloid::fit(&gap, lower_grid.pitch).is_some()
     };
     let out_of_scale = beside::out_of_scale(case, bodies, &estimate, curved);
     let lost = beside::lost(case, bodies, &estimate);

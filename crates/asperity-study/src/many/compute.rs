@@ -81,7 +81,7 @@ struct WorkerData<'c> {
 }
 
 impl Watch for WorkerData<'_> {
-    fn at(&self, _: &Progress) {}
+    fn position(&self, _: &Progress) {}
 
     fn stop(&self) -> bool {
         self.is_broken.load(Ordering::Relaxed) || (self.stop)()

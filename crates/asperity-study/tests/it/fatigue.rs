@@ -243,7 +243,7 @@ struct StopAt {
 }
 
 impl Watch for StopAt {
-    fn at(&self, _: &Progress) {}
+    fn position(&self, _: &Progress) {}
 
     fn stop(&self) -> bool {
         self.asked.fetch_add(1, Ordering::Relaxed) >= self.at

@@ -41,7 +41,7 @@ impl Log {
 }
 
 impl Watch for Log {
-    fn at(&self, _: &Progress) {}
+    fn position(&self, _: &Progress) {}
 
     fn pass(&self, record: &PassRecord) {
         self.0.lock().unwrap().push(format!("done {}", record.pass));

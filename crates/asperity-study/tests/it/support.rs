@@ -86,7 +86,7 @@ impl StopAfter {
 }
 
 impl Watch for StopAfter {
-    fn at(&self, _: &Progress) {
+    fn position(&self, _: &Progress) {
         self.solved.fetch_add(1, Relaxed);
     }
 

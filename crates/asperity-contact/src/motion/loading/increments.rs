@@ -46,10 +46,10 @@ impl Course for Increments {
         let done = state.as_ref().map_or(0, |state| state.increments.len());
         let origin = match &state {
             Some(state) if !next.begins_stage() => state.origin,
-            Some(state) => Origin::of(&state.contact),
+            Some(state) => Origin::from_contact(&state.contact),
             None => Origin::apart(self.loading.gap.iter().copied().fold(f64::INFINITY, f64::min)),
         };
-        let (loading, share) = stage.at(next.step, &origin);
+        let (loading, share) = stage.loading_at(next.step, &origin);
         let all = done + next.left(&self.loading.stages, 1) + self.unloading_steps();
         let watch = StaticWatch::new(watch, done, all, loading.normal);
         let at = |source| Error::AtIncrement { increment: done + 1, source };
@@ -274,7 +274,7 @@ impl Increments {
             plastic: flow,
             iterations: stats.iterations,
             convolutions: stats.convolutions,
-            ..IncrementRecord::of(&contact)
+            ..IncrementRecord::from_contact(&contact)
         });
         let dissipation_error = error + more_error;
         let next = following;
@@ -294,7 +294,7 @@ impl Increments {
 
 impl IncrementRecord {
     /// Creates the record of an increment from the contact at its end.
-    pub(super) fn of(contact: &Equilibrium) -> Self {
+    pub(super) fn from_contact(contact: &Equilibrium) -> Self {
         let normal = contact.normal();
         let [tangential_force_x, tangential_force_y] = contact.force();
         let [tangential_displacement_x, tangential_displacement_y] = contact.rigid_displacement();

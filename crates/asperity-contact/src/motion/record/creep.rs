@@ -43,7 +43,7 @@ columns! {
 impl PassDragRecord {
     /// Creates the record of a pass from the drag and the load of its positions, with the cells of the way to
     /// each, and the drag times the cells of the way on which the bodies come apart after them.
-    pub(in crate::motion) fn of(
+    pub(in crate::motion) fn from_positions(
         positions: impl Iterator<Item = (Newton, Newton, f64)>,
         leaving: Newton,
     ) -> Self {

@@ -217,7 +217,7 @@ impl Simulation {
         changes.prepare(&mut self.pair)?;
         let repeats = changes.laws.iter().any(|law| law.repeats());
         let compliance = repeats || !changes.memories.is_empty() || changes.jumps();
-        self.compliance_of_grid = compliance.then(|| GridCompliance::of(&self.pair, self.boundary));
+        self.compliance_of_grid = compliance.then(|| GridCompliance::new(&self.pair, self.boundary));
         self.heat = self.heat_of(&changes)?;
         changes.laws.insert(0, Box::new(Truncation));
         let simulation = Self { changes, ..self };

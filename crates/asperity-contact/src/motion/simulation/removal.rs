@@ -140,7 +140,7 @@ impl Simulation {
 
     /// Returns the data of the positions of a pass that laws need besides its contacts.
     pub(super) fn position_data(&self) -> PositionData {
-        PositionData::of(&self.motion, &self.pair, self.changes.bulk)
+        PositionData::new(&self.motion, &self.pair, self.changes.bulk)
     }
 
     /// Lets the memories look at a solved pass.

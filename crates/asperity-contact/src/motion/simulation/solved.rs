@@ -74,7 +74,7 @@ impl SolvedPass {
             plastic: self.outcome.plastic_pass.as_ref().map(|pass| pass.record),
             drag: self.outcome.drag.as_ref().map(|drag| {
                 let steps = drag.positions.iter().zip(&self.steps).zip(&drag.cells);
-                PassDragRecord::of(
+                PassDragRecord::from_positions(
                     steps.map(|((drag, step), cells)| (*drag, step.load, *cells)),
                     drag.leaving,
                 )
@@ -162,8 +162,8 @@ fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) ->
         drag: None,
         sq_lower: pair.lower.heights.std(0.0),
         sq_upper: pair.upper.heights.std(0.0),
-        sq_lower_interior: interiors[0].of(&pair.lower.heights).std(0.0),
-        sq_upper_interior: interiors[1].of(&pair.upper.heights).std(0.0),
+        sq_lower_interior: interiors[0].slice(&pair.lower.heights).std(0.0),
+        sq_upper_interior: interiors[1].slice(&pair.upper.heights).std(0.0),
         outer_iterations: 1,
         convolutions: steps.iter().map(|s| s.convolutions).sum(),
         wall_time_s: 0.0,

@@ -70,7 +70,7 @@ impl Volume {
         )?;
         check("poisson", poisson, (0.0..=0.5).contains(&poisson), "Poisson's ratio from 0 to 0.5")?;
         let free = !boundary.leaves_mean_free();
-        let period = if free { grid.shape.map(|n| Coarsening::of(n).period()) } else { grid.shape };
+        let period = if free { grid.shape.map(|n| Coarsening::new(n).period()) } else { grid.shape };
         let waves = Waves::new(&grid, period, &layers, young, poisson);
         let images = free.then(|| Images::new(&grid, &layers, young, poisson));
         Ok(Self {

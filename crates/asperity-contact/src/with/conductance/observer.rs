@@ -49,7 +49,7 @@ impl ConductanceObserver {
             roughness: JointRoughness::new(&largest, &flush, [0, 1].map(|axis| boundary.repeats(axis))),
             hardness: pair.min_hardness(),
             modulus: pair.modulus(),
-            is_curved: boundary != Boundary::PERIODIC && Paraboloid::of(&flush, largest.pitch).is_some(),
+            is_curved: boundary != Boundary::PERIODIC && Paraboloid::fit(&flush, largest.pitch).is_some(),
             is_clean: joint.film.is_none()
                 && joint.gas.is_none()
                 && surroundings.bodies.iter().all(|body| body.material.coating.is_none()),

@@ -228,7 +228,7 @@ mod tests {
                 max_shear(&less(deviator, &centre)) + criterion.weight() * mean
             };
             let expected = seen.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-            let [f, radius] = criterion.of(&history);
+            let [f, radius] = criterion.evaluate(&history);
             assert!((f - expected).abs() < 1e-8, "case {case}: {f} {expected}");
             assert!((radius - square.sqrt()).abs() < 1e-8, "case {case}: {radius} {}", square.sqrt());
         }

@@ -64,7 +64,7 @@ impl Below {
     ///
     /// # Errors
     /// [`Error::Interrupted`](crate::Error::Interrupted).
-    pub(super) fn seen(
+    pub(super) fn dang_van(
         &self,
         (index, body): (usize, &Limited),
         pair: &Pair,

@@ -120,7 +120,7 @@ impl Grown {
 impl DangVan {
     /// Returns f of a point that sees this `history` of stresses again and again, and the radius of the
     /// smallest ball around its deviators. Without stresses f is −∞.
-    pub fn of(&self, history: &[Stress]) -> [Pascal; 2] {
+    pub fn evaluate(&self, history: &[Stress]) -> [Pascal; 2] {
         let components = history.iter().map(Stress::components);
         let largest = components.clone().flatten().fold(0.0f64, |most, s| most.max(s.abs()));
         let Some(first) = history.first() else { return [f64::NEG_INFINITY, 0.0] };

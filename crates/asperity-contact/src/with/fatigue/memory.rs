@@ -117,7 +117,7 @@ impl Memory for Damage {
             return Ok(());
         }
         for (index, limited) in self.0.limited() {
-            let found = self.0.seen((index, limited), pair, cycle)?;
+            let found = self.0.dang_van((index, limited), pair, cycle)?;
             let volume = cycle.plastic_volumes.iter().find(|volume| volume.body == index);
             let body = body_of(pair, index);
             // Cycles between two computed ones do damage between theirs.

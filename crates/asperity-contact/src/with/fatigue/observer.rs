@@ -23,7 +23,7 @@ impl FatigueObserver {
     pub(super) fn new(fatigue: &Fatigue, given: &Given<'_>) -> Result<Self> {
         let below = Below::new(fatigue, given)?;
         let asks = below.limited().any(|(_, body)| body.risk);
-        let smooth = asks.then(|| Smooth::of(given)).transpose()?;
+        let smooth = asks.then(|| Smooth::new(given)).transpose()?;
         Ok(Self { below, smooth })
     }
 

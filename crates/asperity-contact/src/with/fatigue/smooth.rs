@@ -32,7 +32,7 @@ impl Smooth {
     ///
     /// # Errors
     /// The errors of the fit.
-    pub(super) fn of(given: &Given<'_>) -> Result<Self> {
+    pub(super) fn new(given: &Given<'_>) -> Result<Self> {
         let mut pair = given.pair.clone();
         let grids = [pair.lower_grid(), pair.upper_grid()];
         for (body, grid) in [&mut pair.lower, &mut pair.upper].into_iter().zip(grids) {
@@ -96,7 +96,7 @@ impl Smooth {
         let mut risks = [0.0; 2];
         for (index, limited) in below.limited() {
             let cycle = LoadCycle::of_pass(pass.contacts(), &motion).until(stop);
-            let found = below.seen((index, limited), &self.pair, &cycle)?;
+            let found = below.dang_van((index, limited), &self.pair, &cycle)?;
             let over: Vec<Field> = found.iter().map(|at| &at.f / limited.criterion.limit()).collect();
             risks[index] = at_risk(below, limited, &over.iter().collect::<Vec<_>>());
         }

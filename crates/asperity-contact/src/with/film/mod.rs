@@ -224,7 +224,7 @@ pub(in crate::with) struct FilmStates<'a> {
 
 impl FilmStates<'_> {
     /// Thickness and growth of a flat cell.
-    pub(in crate::with) fn at(&self, cell: usize) -> [Metre; 2] {
+    pub(in crate::with) fn state_of(&self, cell: usize) -> [Metre; 2] {
         [&self.thickness, &self.grown].map(|values| values.get(cell).copied().unwrap_or(0.0))
     }
 }
@@ -236,11 +236,11 @@ impl<'a> GrowthSums<'a> {
     /// Number of sums.
     pub(in crate::with) const SUMS: usize = 2;
 
-    pub(in crate::with) fn of(sums: &'a [Field]) -> Self {
+    pub(in crate::with) fn new(sums: &'a [Field]) -> Self {
         Self([0, 1].map(|index| sums[index].as_slice().expect("standard layout")))
     }
 
-    pub(in crate::with) fn at(&self, cell: usize) -> [f64; 2] {
+    pub(in crate::with) fn sums_of(&self, cell: usize) -> [f64; 2] {
         self.0.map(|values| values[cell])
     }
 }
@@ -304,10 +304,11 @@ impl Law for Films {
             let body = &mut *bodies[index];
             let mut depth = Field::zeros(body.heights.raw_dim());
             let Some(film) = &self.films[index] else { return depth };
-            let growing = GrowthSums::of(&sums[index]);
+            let growing = GrowthSums::new(&sums[index]);
             let states = film.states(body);
-            let after: Vec<[Metre; 2]> =
-                (0..depth.len()).map(|cell| film.after(states.at(cell), growing.at(cell), passes)).collect();
+            let after: Vec<[Metre; 2]> = (0..depth.len())
+                .map(|cell| film.after(states.state_of(cell), growing.sums_of(cell), passes))
+                .collect();
             for ((depth, after), before) in depth.iter_mut().zip(&after).zip(&body.state[FILM].values) {
                 *depth = before - after[0];
             }

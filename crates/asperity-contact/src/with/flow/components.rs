@@ -29,7 +29,7 @@ impl Components {
     }
 
     /// Creates the components of a network.
-    pub(super) fn of(network: &Network) -> Self {
+    pub(super) fn from_network(network: &Network) -> Self {
         let mut components = Self::single(network.cells());
         for (axis, faces) in network.faces.iter().enumerate() {
             for (cell, _) in faces.iter().enumerate().filter(|(_, face)| **face > 0.0) {
@@ -117,7 +117,7 @@ mod tests {
         let gaps: Vec<f64> =
             rows.iter().flat_map(|row| row.bytes().map(|b| f64::from(u8::from(b == b'o')))).collect();
         let network = Network::new(&gaps, [1.0; 2], Faces::Linear, Topology { shape, closed, between });
-        let mut components = Components::of(&network);
+        let mut components = Components::from_network(&network);
         (0..gaps.len()).map(|cell| components.marks(cell)).collect()
     }
 

@@ -409,7 +409,7 @@ struct Part<'a> {
 impl<'a> Part<'a> {
     fn new(gaps: &'a Gaps<'a>, topology: Topology, faces: Faces) -> Self {
         let network = Network::new(&gaps.scaled, gaps.grid.pitch, faces, topology);
-        let mut components = Components::of(&network);
+        let mut components = Components::from_network(&network);
         let marks = (0..network.cells()).map(|cell| components.marks(cell)).collect();
         Self { gaps, topology, faces, network, marks }
     }

@@ -120,9 +120,9 @@ impl Wear {
             };
             let states = film.states([&pair.lower, &pair.upper][body]);
             let mut depths = work.clone();
-            let growing = GrowthSums::of(&sums[body][1..]);
+            let growing = GrowthSums::new(&sums[body][1..]);
             for (cell, value) in depths.iter_mut().enumerate() {
-                let thickness = film.mean_thickness(states.at(cell), growing.at(cell), passes);
+                let thickness = film.mean_thickness(states.state_of(cell), growing.sums_of(cell), passes);
                 *value = depth(coefficient.under(thickness / film.max_thickness), *value);
             }
             depths
@@ -179,10 +179,10 @@ impl Law for Wear {
         [0, 1].map(|body| match (&self.coefficients[body], &self.films[body]) {
             (Some(coefficient), Some(film)) => {
                 let states = film.states([&pair.lower, &pair.upper][body]);
-                let growing = GrowthSums::of(&sums[body][1..]);
+                let growing = GrowthSums::new(&sums[body][1..]);
                 let mut cells = Field::zeros(sums[body][0].raw_dim());
                 for (cell, value) in cells.iter_mut().enumerate() {
-                    let thickness = film.mean_thickness(states.at(cell), growing.at(cell), 1.0);
+                    let thickness = film.mean_thickness(states.state_of(cell), growing.sums_of(cell), 1.0);
                     let share = coefficient.under(thickness / film.max_thickness) / coefficient.rate.bare();
                     *value = bare[body] * share;
                 }

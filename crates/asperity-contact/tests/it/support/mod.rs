@@ -86,7 +86,7 @@ pub(crate) struct Kept {
 }
 
 impl Kept {
-    pub(crate) fn of(mut simulation: Simulation) -> Self {
+    pub(crate) fn run(mut simulation: Simulation) -> Self {
         let mut kept = Self::default();
         simulation.run(&(), &mut [&mut kept]).unwrap();
         kept
