@@ -43,7 +43,7 @@ pub(crate) fn case_on(path: &Path, command: &str, device: Option<Device>) -> Out
 }
 
 /// Returns a path as an argument of a shell.
-pub(crate) fn shown(path: &Path) -> String {
+pub(crate) fn quoted(path: &Path) -> String {
     let text = path.display().to_string();
     let is_plain = |letter: char| letter.is_alphanumeric() || "/._-+:\\".contains(letter);
     if text.chars().all(is_plain) { text } else { format!("\"{text}\"") }
@@ -105,7 +105,7 @@ fn instead_of_text(path: &Path, content: &[u8], expected: &str) -> Option<(Strin
         }
         Err(_) => return None,
     };
-    let file = shown(path);
+    let file = quoted(path);
     let hint = format!(
         "`asperity surface info {file}` describes it, `asperity contact {file} OTHER --load \"1 N\" --material steel` presses it against \
          another one; a case file names it: `topography = {{ file = \"{name}\" }}`"

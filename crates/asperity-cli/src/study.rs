@@ -42,7 +42,7 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
     let folder = Folder::enter(&directory, &study).map_err(|error| changed(error.into()))?;
     foresee(&study, &folder)?;
     compute(&Queue::new(&study, &folder, task, arguments.retry)?, arguments.quiet).map_err(changed)?;
-    let tally = Tally::of(&folder.states(&study)?);
+    let tally = Tally::from_states(&folder.states(&study)?);
     if tally.left() == 0 && folder.has_grown(&study)? {
         note(
             "the study has grown since this file was written: its tables are left as they are, and its present file makes them",
@@ -174,7 +174,7 @@ fn list(study: &Study, directory: &Path, task: Task) -> Outcome {
         };
         let _ = writeln!(text, "{case:04}  {told}");
     }
-    let tally = Tally::of(listed().map(|(_, state)| state));
+    let tally = Tally::from_states(listed().map(|(_, state)| state));
     note(&format!(
         "{} of {} cases are done, {} have failed, {} are running, {} are open",
         tally.done,

@@ -148,7 +148,7 @@ pub fn run_on_ranks(
     let Some(writer) = writer else { return Ok(None) };
     index.write(directory)?;
     let closed_form = closed_form(case, slab.whole_grid().extent(), &outcome);
-    let computed = Computed::of(outcome).with_closed_form(closed_form);
+    let computed = Computed::from_outcome(outcome).with_closed_form(closed_form);
     conclude(case, &writer, began, computed, Vec::new()).map(Some)
 }
 

@@ -95,7 +95,7 @@ impl CoreStudy {
             many::compute(&queue, available_memory(), &|| looking.stop(), &ended)?;
             let states = self.stand(&folder)?;
             // The tables of a study that has grown belong to its present file.
-            if Tally::of(&states).left() == 0 && !folder.has_grown(&self.study)? {
+            if Tally::from_states(&states).left() == 0 && !folder.has_grown(&self.study)? {
                 collect_study(&self.study, &folder)?;
             }
             let failed =

@@ -62,7 +62,7 @@ impl CoreResults {
             "increments" => record(py, &ok(results.increments(), py)?),
             "updates" => record(py, &ok(results.updates(), py)?),
             "sweep" => record(py, &ok(results.sweep(), py)?),
-            _ => record(py, &ok(results.found(), py)?),
+            _ => record(py, &ok(results.observations(), py)?),
         }
     }
 

@@ -105,7 +105,7 @@ impl ClosedForm {
     ///
     /// `None` if there is none: for bodies that are not both bare forms (flat, sphere, ellipsoid, cylinder,
     /// cone), for coated bodies, for boundaries that the theory does not have, and if nothing presses.
-    pub fn of(case: &Case, extent: [Metre; 2], control: Control) -> Option<Self> {
+    pub fn from_case(case: &Case, extent: [Metre; 2], control: Control) -> Option<Self> {
         if case.motion.is_some() || case.is_coated() {
             return None;
         }

@@ -198,7 +198,7 @@ mod tests {
         };
         let values: Map<String, Value> = columns.iter().map(|c| (c.name.to_owned(), value(c))).collect();
         let record: T = serde_json::from_value(values.into()).unwrap();
-        let row = Row::of(&record);
+        let row = Row::from_record(&record);
         let names: Vec<&str> = row.cells().iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, columns.iter().map(|column| column.name).collect::<Vec<_>>(), "{record:?}");
     }

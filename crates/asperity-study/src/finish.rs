@@ -39,7 +39,7 @@ impl Computed {
     }
 
     /// Creates results with an outcome and nothing else.
-    pub fn of(outcome: Outcome) -> Self {
+    pub fn from_outcome(outcome: Outcome) -> Self {
         Self {
             outcome,
             subsurface: Vec::new(),
@@ -66,7 +66,7 @@ pub fn conclude(
         writer.write_for_paraview()?;
     }
     let running_in = match &outcome {
-        Outcome::Passes(passes) => RunningIn::of(passes),
+        Outcome::Passes(passes) => RunningIn::from_passes(passes),
         Outcome::Static(_) | Outcome::Sweep(_) => None,
     };
     let summary = Summary {
@@ -105,7 +105,7 @@ pub fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) -> Option
         Outcome::Passes(_) => None,
     }?;
     let is_plain = case.sliding.is_none() && !case.relaxes() && case.interface.is_empty() && !case.runs_in();
-    let form = ClosedForm::of(case, extent, Control::Load(computed.load)).filter(|_| is_plain)?;
+    let form = ClosedForm::from_case(case, extent, Control::Load(computed.load)).filter(|_| is_plain)?;
     Some(form.beside(computed))
 }
 

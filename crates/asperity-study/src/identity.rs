@@ -68,13 +68,13 @@ pub fn resolved_of(case: &Case, bodies: [BodyData<'_>; 2]) -> Value {
             table["sha256"] = digest.clone().into();
         }
     }
-    resolved["identity"] = of(&resolved).into();
+    resolved["identity"] = identity_of(&resolved).into();
     resolved
 }
 
 /// Returns the digest in all files of a run. Runs with equal results have the same digest, so that their
 /// files are interchangeable.
-pub fn of(case: &Value) -> String {
+pub fn identity_of(case: &Value) -> String {
     sha256(&serde_json::to_vec(&deciding(case)).expect("a JSON value can be written"))
 }
 
@@ -212,7 +212,7 @@ mod tests {
             .map(|(path, text)| {
                 let case = Case::parse(text, path, Path::new("")).unwrap();
                 let name = path.file_stem().unwrap().to_string_lossy().into_owned();
-                (name, of(&serde_json::to_value(case).unwrap())[..8].to_owned())
+                (name, identity_of(&serde_json::to_value(case).unwrap())[..8].to_owned())
             })
             .collect();
         let frozen = [

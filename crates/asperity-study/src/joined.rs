@@ -75,7 +75,7 @@ pub(super) fn write(results: &Results, summary: &Summary) -> Result<()> {
 /// # Errors
 /// [`asperity_base::Error::File`].
 pub(super) fn of_run(results: &Results, summary: &Summary) -> Result<Vec<Vec<Cell>>> {
-    let found = results.found()?;
+    let found = results.observations()?;
     let mut rows = match &summary.outcome {
         Outcome::Passes(passes) => return Ok(of_passes(passes, found, &summary.subsurface)),
         Outcome::Sweep(points) => of_steps(points, |point| point.point, &found),
@@ -153,7 +153,7 @@ pub(super) fn of_motion(passes: &[PassRecord]) -> Vec<Cell> {
 /// Returns the cells of a record, one for each component of a vector.
 pub(super) fn cells(prefix: &str, record: &impl Serialize, columns: &'static [Column]) -> Vec<Cell> {
     let mut cells = Vec::new();
-    for (key, text) in Row::of(record).cells().iter().filter(|(key, _)| key != "wall_time_s") {
+    for (key, text) in Row::from_record(record).cells().iter().filter(|(key, _)| key != "wall_time_s") {
         let value = serde_json::from_str(text).unwrap_or(Value::Null);
         let column = declared(columns, key);
         let components = column.map_or(&[][..], |column| column.components);

@@ -117,7 +117,7 @@ mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
 pub mod parts {
     pub use crate::estimate::{cut_off, spot, too_few_cells};
     pub use crate::finish::{Computed, closed_form, conclude, params};
-    pub use crate::identity::{BodyData, of as identity_of, resolved_of};
+    pub use crate::identity::{BodyData, identity_of, resolved_of};
     pub use crate::prepare::{Fit, Place, grids, hardness, topography_of};
     pub use crate::rest::pressed;
     pub use crate::summary::write as write_summary;

@@ -165,8 +165,8 @@ pub fn bodies_until(case: &Case, mut given: SurfaceInput, stop: Stop<'_>) -> Res
     let grid = Grid::new(upper.topography.grid().shape, lower.topography.grid().pitch)?;
     upper.topography = Topography::new(grid, upper.topography.into_heights())?;
     let master_curves = [
-        master_curve::of(case, "lower", &case.lower, &given)?,
-        master_curve::of(case, "upper", &case.upper, &given)?,
+        master_curve::of_body(case, "lower", &case.lower, &given)?,
+        master_curve::of_body(case, "upper", &case.upper, &given)?,
     ];
     Ok(Bodies { lower, upper, master_curves })
 }

@@ -139,7 +139,7 @@ impl Plan {
     }
 
     /// Returns the plan with the cells of a pass. On a body that moves from pass to pass they differ.
-    pub(super) fn at(&self, position: &Position, lower: &Grid) -> Self {
+    pub(super) fn at_position(&self, position: &Position, lower: &Grid) -> Self {
         Self { corner: corner(self.body, position, lower), ..self.clone() }
     }
 
@@ -203,7 +203,7 @@ impl Plan {
         }
         let look = |plane: Plane| {
             let section = plane.stress.each_ref().map(|component| component.column(row).to_owned());
-            let columns: Vec<Stress> = self.columns.iter().map(|cell| plane.stress_at(*cell)).collect();
+            let columns: Vec<Stress> = self.columns.iter().map(|cell| plane.stress(*cell)).collect();
             let volume = self.volume.then(|| plane.von_mises().mapv(|stress| stress as f32));
             (section, columns, volume)
         };
@@ -242,8 +242,7 @@ impl Plan {
 
     /// Adds the residual stress on the section and under the columns.
     fn add_residual(&self, file: &mut FieldFile, residual: &LayeredStress, row: usize) {
-        let planes: Vec<[Field; 6]> =
-            self.depths.iter().map(|depth| residual.components_at(*depth)).collect();
+        let planes: Vec<[Field; 6]> = self.depths.iter().map(|depth| residual.components(*depth)).collect();
         let pitch = [self.grid.pitch[0], self.spacing()];
         let x = self.corner[0] + self.grid.centre(0, 0);
         for (component, name) in Component::ALL.iter().map(|c| (*c as usize, c.name())) {

@@ -74,7 +74,7 @@ columns! {
 
 impl RunningIn {
     /// Sums these passes, if laws change the bodies in them.
-    pub(super) fn of(passes: &[PassRecord]) -> Option<Self> {
+    pub(super) fn from_passes(passes: &[PassRecord]) -> Option<Self> {
         passes.first()?.running?;
         let mut lost = BTreeMap::<String, [CubicMetre; 2]>::new();
         for volumes in passes.iter().flat_map(|pass| &pass.lost) {

@@ -25,7 +25,7 @@ use asperity_contact::motion::{PassRecord, StepRecord, is_volume_of_law};
 /// [`Error::NotFinite`] for a number that is NaN or infinite, unless it may be unknown.
 pub(super) fn checked<T: Record>(records: &[T]) -> Result<Vec<Row>> {
     let row = |record: &T| {
-        let row = Row::of(record);
+        let row = Row::from_record(record);
         let may_be_unknown =
             |name: &str| T::COLUMNS.iter().any(|c| c.name == name && c.presence == Presence::Unknown);
         let wrong = |(column, value): &&(String, String)| {
@@ -194,7 +194,7 @@ const TABLE: &str = "a table of results";
 pub(super) fn digest<T: Serialize>(before: &str, records: &[T]) -> String {
     records.iter().fold(before.to_owned(), |digest, record| {
         let mut text = digest;
-        for (column, value) in Row::of(record).cells() {
+        for (column, value) in Row::from_record(record).cells() {
             // A law without effect so far may have no columns, and times differ in a resumed run.
             let is_nothing = is_volume_of_law(column) && value.parse() == Ok(0.0_f64);
             if !is_nothing && column != "wall_time_s" {
@@ -220,7 +220,7 @@ pub(super) fn digest_of_passes(passes: &[PassRecord], steps: &[StepRecord]) -> S
 pub(super) struct Row(Vec<(String, String)>);
 
 impl Row {
-    pub(super) fn of(record: &impl Serialize) -> Self {
+    pub(super) fn from_record(record: &impl Serialize) -> Self {
         serde_json::from_str(&json::to_string(record)).expect("a record is an object")
     }
 

@@ -74,7 +74,7 @@ impl Surface {
         let Grid { shape, pitch } = *topography.grid();
         let defined = || topography.heights().iter().copied().filter(|height| height.is_finite());
         let origin = self.prepared.origin.as_ref();
-        let description = Description::of(topography, true, cutoff_of_a_line(topography))?;
+        let description = Description::new(topography, true, cutoff_of_a_line(topography))?;
         let mut table = Table::default();
         description.add_to(&mut table);
         let mut findings = findings_in_words(&self.prepared.findings, topography);

@@ -111,7 +111,7 @@ pub(crate) fn init(arguments: &Init) -> Outcome {
     };
     let text = with_more(&draft([&lower, &upper], materials.0, pressed, passes).text());
     io::replace(&arguments.case, text.as_bytes())?;
-    let case = place::shown(&arguments.case);
+    let case = place::quoted(&arguments.case);
     note(&format!("next: asperity check {case}, then asperity run {case}"));
     print(&format!("{}\n", arguments.case.display()))
 }

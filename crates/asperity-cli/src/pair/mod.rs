@@ -40,7 +40,7 @@ fn compute(
         return Err(Failure::usage(there, Some("--overwrite replaces them, --out names another directory")));
     }
     if case.exists() && !writing.overwrite {
-        let hint = format!("`asperity run {}` computes it, --overwrite replaces it", place::shown(&case));
+        let hint = format!("`asperity run {}` computes it, --overwrite replaces it", place::quoted(&case));
         return Err(Failure::usage(format!("`{}` exists", case.display()), Some(&hint)));
     }
     let surfaces = [("lower", &asked.lower), ("upper", &asked.upper)];
@@ -86,7 +86,7 @@ fn compute(
     }
     outcome?;
     if !writing.quiet {
-        let case = place::shown(&case);
+        let case = place::quoted(&case);
         note(&format!("the case is {case}: edit it, then `asperity run {case} --overwrite`"));
     }
     if writing.open { show(&directory.join(page::FILE)) } else { Ok(()) }
@@ -108,7 +108,7 @@ fn prepared(path: &Path, surfaces: [&FileSurface; 2], is_quiet: bool) -> Outcome
         let time = units::format_time(solving + drawing);
         note(&format!(
             "this takes about {time}; after Ctrl-C `asperity run {} --resume` goes on",
-            place::shown(path)
+            place::quoted(path)
         ));
     }
     Ok(())

@@ -29,7 +29,7 @@ enum Kind {
 impl Cell {
     /// Creates a number of a column of the results: a quantity in a unit for the first row, an absolute
     /// temperature in degrees Celsius, or a pure number, which may be much smaller than 1.
-    pub(super) fn of(head: &'static str, column: &str, value: impl Into<Option<f64>>) -> Self {
+    pub(super) fn new(head: &'static str, column: &str, value: impl Into<Option<f64>>) -> Self {
         let value = value.into();
         match dimension_of_column(column) {
             Some(Dimension::Temperature) => {
@@ -47,7 +47,7 @@ impl Cell {
 
     /// Creates a quantity that begins near zero, in a unit for at least this value.
     pub(super) fn growing(head: &'static str, column: &str, least: f64, value: f64) -> Self {
-        let quantity = Self::of(head, column, value);
+        let quantity = Self::new(head, column, value);
         match quantity.kind {
             Kind::Of(dimension) => Self { kind: Kind::Growing(dimension, least), ..quantity },
             _ => quantity,
@@ -158,7 +158,7 @@ mod tests {
     #[test]
     fn a_small_number_does_not_touch_the_column_before_it() {
         let row =
-            |value| Columns::default().row("point", 1, &[Cell::of("drag/W", "drag_coefficient", value)]);
+            |value| Columns::default().row("point", 1, &[Cell::new("drag/W", "drag_coefficient", value)]);
         for (value, text) in
             [(0.0001475, "1.48e-4"), (-0.0001475, "-1.48e-4"), (0.01475, "0.01475"), (0.0, "0")]
         {
@@ -171,12 +171,12 @@ mod tests {
         let mut columns = Columns::default();
         let row = |area: f64, volume: f64| {
             [
-                Cell::of("load", "load", 0.18),
-                Cell::of("area", "contact_area", area),
-                Cell::of("plastic", "plastic_volume", volume),
+                Cell::new("load", "load", 0.18),
+                Cell::new("area", "contact_area", area),
+                Cell::new("plastic", "plastic_volume", volume),
                 Cell::share("stick", 0.5),
-                Cell::of("friction", "friction_coefficient", -0.12345),
-                Cell::of("stiff", "stiffness", None),
+                Cell::new("friction", "friction_coefficient", -0.12345),
+                Cell::new("stiff", "stiffness", None),
             ]
         };
         let mut text = columns.row("pass", 1, &row(61.8e-12, 3.085e-18));

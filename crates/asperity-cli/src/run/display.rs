@@ -178,7 +178,7 @@ impl Watch for Display {
     }
 
     fn cells(&self, cells: &[StepCell]) {
-        self.table().rows.found(cells);
+        self.table().rows.set_step_cells(cells);
     }
 
     fn pass(&self, record: &PassRecord) {

@@ -61,7 +61,7 @@ pub(crate) fn compute(
         && let Ok(results) = Results::open(directory)
     {
         // Finished steps get their page; the message reports why no more follow.
-        let _ = page::write(&results, &page::of(&results));
+        let _ = page::write(&results, &page::path_of(&results));
     }
     // The lock of the directory is held until the figures are written.
     let (summary, writer) = outcome?;
@@ -70,11 +70,11 @@ pub(crate) fn compute(
     }
     let tell = |text: &str| if is_quiet { Ok(()) } else { print(text) };
     let results = writer.results();
-    let (found, updates) = (results.found()?, results.updates()?);
+    let (found, updates) = (results.observations()?, results.updates()?);
     let printed = printed.and_then(|()| tell(&record::text(&case, &summary, &found, &updates)));
     let (wanted, stopped) = (figures::FigureOptions::default(), || stop.asked());
     let (sheet, seen) = page::gathered(results, &wanted, &stopped);
-    let write = || page::write_with(results, seen, &page::of(results));
+    let write = || page::write_with(results, seen, &page::path_of(results));
     let (page, drawn) = rayon::join(write, || sheet.and_then(figures::Sheet::finish));
     drawn.map_err(|error| match error {
         asperity_report::Error::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {

@@ -69,49 +69,49 @@ impl Rows {
     pub(super) fn pass(&mut self, pass: &PassRecord) -> String {
         self.done += pass.represents();
         let mut ranked = vec![
-            (Rank::Always, Cell::of("load", "mean_load", pass.mean_load)),
-            (Rank::Always, Cell::of("p max", "max_pressure", pass.max_pressure)),
-            (Rank::Always, Cell::of("area", "mean_contact_area", pass.mean_contact_area)),
+            (Rank::Always, Cell::new("load", "mean_load", pass.mean_load)),
+            (Rank::Always, Cell::new("p max", "max_pressure", pass.max_pressure)),
+            (Rank::Always, Cell::new("area", "mean_contact_area", pass.mean_contact_area)),
         ];
         ranked.insert(0, (Rank::Approach, self.approach(pass.pass == 1, pass.approach)));
         if self.rim > 0.0 {
             let inside = pass.mean_contact_area_interior;
-            ranked.push((Rank::Always, Cell::of("inside", "mean_contact_area_interior", inside)));
+            ranked.push((Rank::Always, Cell::new("inside", "mean_contact_area_interior", inside)));
         }
         if self.yields {
             let plastic = pass.lost_inside("plastic")[0] + pass.lost_inside("plastic")[1];
-            ranked.push((Rank::Plastic, Cell::of("plastic", "plastic_volume_lower_interior", plastic)));
+            ranked.push((Rank::Plastic, Cell::new("plastic", "plastic_volume_lower_interior", plastic)));
         }
         if let Some(plastic) = &pass.plastic {
             let work = plastic.plastic_work_lower + plastic.plastic_work_upper;
-            ranked.push((Rank::Always, Cell::of("work", "plastic_work_lower", work)));
+            ranked.push((Rank::Always, Cell::new("work", "plastic_work_lower", work)));
         }
         for RowCell { head, column, value, .. } in pass.interface.iter().flat_map(interface_cells) {
-            ranked.push((Rank::Always, Cell::of(head, column, value)));
+            ranked.push((Rank::Always, Cell::new(head, column, value)));
         }
         if let Some(drag) = &pass.drag {
-            ranked.push((Rank::Always, Cell::of("drag/W", "drag_coefficient", drag.drag_coefficient)));
+            ranked.push((Rank::Always, Cell::new("drag/W", "drag_coefficient", drag.drag_coefficient)));
         }
-        ranked.push((Rank::Roughness, Cell::of("Sq lower", "sq_lower_interior", pass.sq_lower_interior)));
+        ranked.push((Rank::Roughness, Cell::new("Sq lower", "sq_lower_interior", pass.sq_lower_interior)));
         ranked
-            .push((Rank::UpperRoughness, Cell::of("Sq upper", "sq_upper_interior", pass.sq_upper_interior)));
+            .push((Rank::UpperRoughness, Cell::new("Sq upper", "sq_upper_interior", pass.sq_upper_interior)));
         ranked.extend(self.of_laws(pass));
         let found = self.earlier.get(&pass.pass).unwrap_or(&self.found).clone();
         let known = || found.iter().filter(|cell| cell.value.is_some()).map(|cell| cell.head).collect();
         let heads = self.heads.get_or_insert_with(known);
         for StepCell { head, column, value } in found.into_iter().filter(|cell| heads.contains(&cell.head)) {
             let cell =
-                column.map_or_else(|| Cell::share(head, value), |column| Cell::of(head, column, value));
+                column.map_or_else(|| Cell::share(head, value), |column| Cell::new(head, column, value));
             ranked.push((Rank::Always, cell));
         }
         match &pass.running {
             Some(running) if running.max_flash_temperature.is_finite() => {
-                let temperature = Cell::of("T max", "max_flash_temperature", running.max_flash_temperature);
+                let temperature = Cell::new("T max", "max_flash_temperature", running.max_flash_temperature);
                 ranked.push((Rank::Always, temperature));
             }
             Some(_) => {}
             None if self.slides => {
-                let friction = Cell::of("friction", "friction_coefficient", pass.friction_coefficient);
+                let friction = Cell::new("friction", "friction_coefficient", pass.friction_coefficient);
                 ranked.push((Rank::Friction, friction));
             }
             None => {}
@@ -122,7 +122,7 @@ impl Rows {
     }
 
     /// Receives what capabilities show in the row of the next pass.
-    pub(super) fn found(&mut self, cells: &[StepCell]) {
+    pub(super) fn set_step_cells(&mut self, cells: &[StepCell]) {
         self.found = cells.to_vec();
     }
 
@@ -183,43 +183,43 @@ impl Rows {
         let approach = self.approach(first, point.approach);
         let mut cells: Vec<Cell> = Vec::new();
         if let Some(steady) = point.steady {
-            cells.push(Cell::of("speed", "speed", steady.speed));
+            cells.push(Cell::new("speed", "speed", steady.speed));
         }
-        cells.push(Cell::of("load", "load", point.load));
+        cells.push(Cell::new("load", "load", point.load));
         if self.slides {
             // The rounding error of a zero force.
             let shown = |ratio: f64| if ratio.abs() < 1e-6 { 0.0 } else { ratio };
             let traction = point.traction();
             let along = |axis: usize| traction.map(|ratio| shown(ratio[axis]));
             cells.extend([
-                Cell::of("creep x", "creepage_x", point.creepage_x),
-                Cell::of("creep y", "creepage_y", point.creepage_y),
-                Cell::of("T/W x", "friction_coefficient", along(0)),
-                Cell::of("T/W y", "friction_coefficient", along(1)),
-                Cell::of("shear", "max_shear", point.max_shear),
+                Cell::new("creep x", "creepage_x", point.creepage_x),
+                Cell::new("creep y", "creepage_y", point.creepage_y),
+                Cell::new("T/W x", "friction_coefficient", along(0)),
+                Cell::new("T/W y", "friction_coefficient", along(1)),
+                Cell::new("shear", "max_shear", point.max_shear),
                 Cell::share("stick", point.stick_area / point.contact_area),
                 Cell::share("area", point.contact_fraction),
             ]);
         } else {
             cells.extend([
-                Cell::of("p mean", "mean_pressure", point.mean_pressure),
+                Cell::new("p mean", "mean_pressure", point.mean_pressure),
                 approach,
-                Cell::of("gap", "mean_gap", point.mean_gap),
+                Cell::new("gap", "mean_gap", point.mean_gap),
                 Cell::share("area", point.contact_fraction),
-                Cell::of("p max", "max_pressure", point.max_pressure),
+                Cell::new("p max", "max_pressure", point.max_pressure),
             ]);
             if self.yields {
-                cells.push(Cell::of("plastic", "plastic_volume", point.plastic_volume));
+                cells.push(Cell::new("plastic", "plastic_volume", point.plastic_volume));
             }
             cells.push(match (&point.interface, point.steady) {
                 (Some(interface), _) => {
                     let RowCell { head, column, value, .. } = interface_cell(interface);
-                    Cell::of(head, column, value)
+                    Cell::new(head, column, value)
                 }
-                (None, Some(steady)) => Cell::of("drag/W", "drag_coefficient", steady.drag_coefficient),
+                (None, Some(steady)) => Cell::new("drag/W", "drag_coefficient", steady.drag_coefficient),
                 (None, None) => match point.plastic {
                     Some(flow) => Cell::share("strain", flow.max_plastic_strain),
-                    None => Cell::of("stiff", "stiffness", point.stiffness),
+                    None => Cell::new("stiff", "stiffness", point.stiffness),
                 },
             });
         }
@@ -239,9 +239,9 @@ impl Rows {
             self.apart = approach < 0.0;
         }
         if self.apart {
-            Cell::of("apart", "approach", -approach)
+            Cell::new("apart", "approach", -approach)
         } else {
-            Cell::of("approach", "approach", approach)
+            Cell::new("approach", "approach", approach)
         }
     }
 }

@@ -19,7 +19,7 @@ pub(super) fn info(arguments: &Info) -> Outcome {
     }
     suggest_level(&file.topography);
     let cutoff = arguments.cutoff.or_else(|| file.pitch.and_then(|_| cutoff_of_a_line(&file.topography)));
-    let description = Description::of(&file.topography, file.pitch.is_some(), cutoff)?;
+    let description = Description::new(&file.topography, file.pitch.is_some(), cutoff)?;
     if arguments.json {
         print(&format!("{:#}\n", json(&file, &description)))
     } else {

@@ -98,12 +98,7 @@ impl Planes {
     }
 
     /// Returns the harmonics of a `plane` at `ky`, one for each cell along x.
-    pub(crate) fn harmonics_at<'a>(
-        &self,
-        harmonics: &'a [Complex64],
-        plane: usize,
-        ky: usize,
-    ) -> &'a [Complex64] {
+    pub(crate) fn row<'a>(&self, harmonics: &'a [Complex64], plane: usize, ky: usize) -> &'a [Complex64] {
         &harmonics[(plane * self.half() + ky) * self.stride()..][..self.cells[0]]
     }
 
@@ -203,9 +198,7 @@ impl Planes {
                 together(self.shape[0]),
                 &Pool::default(),
                 || self.scratch(),
-                |scratch, (ky, column)| {
-                    self.column_forward(self.harmonics_at(&harmonics, 0, ky), column, scratch)
-                },
+                |scratch, (ky, column)| self.column_forward(self.row(&harmonics, 0, ky), column, scratch),
             );
         }
         columns

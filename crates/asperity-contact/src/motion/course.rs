@@ -208,15 +208,8 @@ impl<'a> Step<'a> {
     fn notify(&self, watch: &dyn Watch) {
         if let (Some(load), Some(positions)) = (self.row.load(), self.of) {
             let solved = self.number;
-            watch.position(&Progress {
-                pass: 1,
-                passes: 1,
-                trial: 1,
-                solved,
-                positions,
-                load,
-                together: None,
-            });
+            let together = None;
+            watch.position(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together });
         }
         match self.row {
             StepRow::Increment(_) => {}

@@ -103,7 +103,7 @@ impl Waves {
             |WavesScratch { fft, columns: [column, sum], .. }, (ky, mut to)| {
                 sum.fill(Complex64::default());
                 for plane in (0..present.len()).filter(|plane| present[*plane]) {
-                    planes.column_forward(planes.harmonics_at(harmonics, plane, ky), column, fft);
+                    planes.column_forward(planes.row(harmonics, plane, ky), column, fft);
                     add([plane, ky], column, sum);
                 }
                 planes.column_back(sum, to[0], fft);

@@ -24,7 +24,7 @@ impl LayeredStress {
     }
 
     /// Returns the components at a depth.
-    pub fn components_at(&self, depth: Metre) -> [Field; 6] {
+    pub fn components(&self, depth: Metre) -> [Field; 6] {
         let last = self.depths.len() - 1;
         let below =
             self.depths.iter().position(|known| *known > depth).unwrap_or(last).clamp(1.min(last), last);
@@ -49,9 +49,9 @@ mod tests {
         for (depth, expected) in
             [(1.0, 10.0), (1.5, 15.0), (2.0, 20.0), (3.0, 40.0), (0.0, 0.0), (4.0, 60.0), (9.0, 60.0)]
         {
-            let found = stress.components_at(depth);
+            let found = stress.components(depth);
             assert_eq!((found[0][[0, 1]], found[5][[0, 0]]), (expected, expected + 5.0), "{depth}");
         }
-        assert_eq!(LayeredStress::new(vec![1.0], vec![plane(3.0)]).components_at(0.2)[0][[0, 0]], 3.0);
+        assert_eq!(LayeredStress::new(vec![1.0], vec![plane(3.0)]).components(0.2)[0][[0, 0]], 3.0);
     }
 }

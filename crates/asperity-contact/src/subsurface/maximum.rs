@@ -38,7 +38,7 @@ impl Plane {
             }
             // The largest shear is at most 1/√3 of von Mises' stress, so that it is not needed elsewhere.
             if value > 3f64.sqrt() * most.shear.value {
-                let shear = self.stress_at([i, j]).max_shear();
+                let shear = self.stress([i, j]).max_shear();
                 if shear > most.shear.value {
                     most.shear = here(shear);
                 }
@@ -67,8 +67,7 @@ impl Subsurface {
         let mut around = [beside - 1, beside, beside + 1].map(|k| self.plane(depths[k]));
         for _ in 0..REFINEMENTS {
             let cell = most.von_mises.cell;
-            let Some(depth) = vertex(around.each_ref().map(|p| [p.depth, p.stress_at(cell).von_mises()]))
-            else {
+            let Some(depth) = vertex(around.each_ref().map(|p| [p.depth, p.stress(cell).von_mises()])) else {
                 break;
             };
             let plane = self.plane(depth);
@@ -140,7 +139,7 @@ mod tests {
         assert!((most.von_mises.value / exact.von_mises.value - 1.0).abs() < 1e-5);
         assert!((most.shear.value / exact.shear.value - 1.0).abs() < 1e-5);
         // It is a value of the body at that place.
-        assert_eq!(body.plane(found).stress_at([12, 12]).von_mises(), most.von_mises.value);
+        assert_eq!(body.plane(found).stress([12, 12]).von_mises(), most.von_mises.value);
     }
 
     #[test]
@@ -157,7 +156,7 @@ mod tests {
         let most = body.maximum(&depths);
         for plane in body.planes(&depths, |plane| plane) {
             for cell in ndarray::indices(body.grid().shape) {
-                let here = plane.stress_at([cell.0, cell.1]);
+                let here = plane.stress([cell.0, cell.1]);
                 assert!(here.von_mises() <= most.von_mises.value && here.max_shear() <= most.shear.value);
             }
         }

@@ -136,7 +136,7 @@ impl Subsurface {
         if let Some(residual) = &self.residual {
             stress
                 .iter_mut()
-                .zip(residual.components_at(depth))
+                .zip(residual.components(depth))
                 .for_each(|(stress, residual)| *stress += &residual);
         }
         Plane { depth, stress }
@@ -306,7 +306,7 @@ pub struct Plane {
 
 impl Plane {
     /// Returns the stress at a cell.
-    pub fn stress_at(&self, cell: [usize; 2]) -> Stress {
+    pub fn stress(&self, cell: [usize; 2]) -> Stress {
         Stress::from_components(self.stress.each_ref().map(|component| component[cell]))
     }
 
@@ -362,7 +362,7 @@ mod tests {
                             exact = exact + *value * cell_stress([x, y], depth, pitch, 0.3, traction);
                         }
                     }
-                    let found = plane.stress_at([cell.0, cell.1]);
+                    let found = plane.stress([cell.0, cell.1]);
                     for (a, b) in found.components().iter().zip(exact.components()) {
                         assert!((a - b).abs() < 1e-13 * most, "{shape:?} at {depth}, {cell:?}: {a} is {b}");
                     }
@@ -486,7 +486,7 @@ mod tests {
                     }
                     let cell = if axis == 1 { [i, shape[1] / 2] } else { [shape[0] / 2, i] };
                     for (component, (stress, exact)) in
-                        plane.stress_at(cell).components().iter().zip(exact).enumerate()
+                        plane.stress(cell).components().iter().zip(exact).enumerate()
                     {
                         assert!(
                             (stress - exact).abs() < 2e-9,

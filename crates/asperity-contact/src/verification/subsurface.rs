@@ -41,7 +41,7 @@ fn rectangle() -> Result<Vec<Check>> {
                 .map(|(value, traction)| value * cell_stress(at, depth, sides, poisson, traction))
                 .into_iter()
                 .fold(Stress::default(), std::ops::Add::add);
-            by_cells = by_cells.max(apart(plane.stress_at([i, j]), exact) / p);
+            by_cells = by_cells.max(apart(plane.stress([i, j]), exact) / p);
             let points = ndarray::indices(grid.shape).into_iter().fold([0.0; 4], |sum, (k, l)| {
                 let from = [grid.centre(0, k) - 0.5 * sides[0], grid.centre(1, l) - 0.5 * sides[1]];
                 let to = [at[0] - from[0], at[1] - from[1], depth];
@@ -116,7 +116,7 @@ fn sliding(friction: f64, its_depth: Expected) -> Result<Vec<Check>> {
             for (i, j) in ndarray::indices(grid.shape) {
                 let [x, y] = [grid.centre(0, i) - 1.5 * a, grid.centre(1, j) - 1.5 * a];
                 let exact = contact.stress([x, y], depth).components();
-                for (found, exact) in plane.stress_at([i, j]).components().iter().zip(exact) {
+                for (found, exact) in plane.stress([i, j]).components().iter().zip(exact) {
                     error += (found - exact).powi(2);
                     scale += exact * exact;
                 }

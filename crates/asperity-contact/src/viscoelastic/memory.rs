@@ -216,13 +216,13 @@ mod tests {
             };
             let mut found = press(0.0, None);
             let mut errors =
-                vec![found.approach / sphere_under_step(1.0, load, body.creep().compliance_at(0.0))[0] - 1.0];
+                vec![found.approach / sphere_under_step(1.0, load, body.creep().compliance(0.0))[0] - 1.0];
             let time = |step: usize| 2.0 * (step as f64 / steps as f64).powi(2);
             for step in 1..=steps {
                 found = press(time(step) - time(step - 1), Some(&found.pressure));
                 assert!((found.load() / load - 1.0).abs() < 1e-9 && found.residual < 1e-8);
                 errors.push(
-                    found.approach / sphere_under_step(1.0, load, body.creep().compliance_at(time(step)))[0]
+                    found.approach / sphere_under_step(1.0, load, body.creep().compliance(time(step)))[0]
                         - 1.0,
                 );
             }

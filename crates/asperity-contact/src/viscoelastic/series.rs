@@ -169,7 +169,7 @@ impl Creep {
     }
 
     /// Returns the compliance `time` after the load, ≥ 0.
-    pub fn compliance_at(&self, time: Second) -> PerPascal {
+    pub fn compliance(&self, time: Second) -> PerPascal {
         let term = |term: &CreepTerm| -term.compliance * (-time / term.time).exp_m1();
         self.glassy + self.terms.iter().map(term).sum::<f64>()
     }
@@ -247,8 +247,8 @@ mod tests {
         let creep = relaxation(1.0, &[(9.0, 0.1)]).creep();
         assert!((creep.terms[0].time - 1.0).abs() < 1e-15 && (creep.terms[0].compliance - 0.9).abs() < 1e-15);
         assert!(
-            (creep.compliance_at(0.0) - 0.1).abs() < 1e-16
-                && (creep.compliance_at(1.0) - (1.0 - 0.9 * (-1f64).exp())).abs() < 1e-15
+            (creep.compliance(0.0) - 0.1).abs() < 1e-16
+                && (creep.compliance(1.0) - (1.0 - 0.9 * (-1f64).exp())).abs() < 1e-15
         );
         let pair = creep.plus(&Creep::elastic(0.5)).times(2.0);
         assert!((pair.glassy - 1.2).abs() < 1e-15 && (pair.relaxed() - 3.0).abs() < 1e-15);

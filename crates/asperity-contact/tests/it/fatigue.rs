@@ -101,7 +101,7 @@ fn random_passes_are_those_of_their_stresses_one_by_one() {
                 .map(|tractions| Subsurface::new(grid, boundary, 0.3, tractions).plane(depth))
                 .collect();
             for cell in ndarray::indices(shape).into_iter().map(|(i, j)| [i, j]) {
-                let history: Vec<Stress> = planes.iter().map(|plane| plane.stress_at(cell)).collect();
+                let history: Vec<Stress> = planes.iter().map(|plane| plane.stress(cell)).collect();
                 let [f, radius] = criterion().evaluate(&history);
                 assert!((found.f[cell] - f).abs() < 1e-8, "case {case}: {} {f}", found.f[cell]);
                 assert!((found.radius[cell] - radius).abs() < 1e-9);

@@ -144,7 +144,7 @@ impl Description {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a cut-off that does not suit the lines.
-    pub fn of(topography: &Topography, has_pitch: bool, cutoff: Option<Metre>) -> Result<Self> {
+    pub fn new(topography: &Topography, has_pitch: bool, cutoff: Option<Metre>) -> Result<Self> {
         let line = line_of(topography);
         let parameters = line.is_none().then(|| {
             let mut parameters = topography.parameters();

@@ -35,7 +35,7 @@ fn cycles(increments: &[IncrementRecord]) -> Vec<Cycle<'_>> {
 
 /// The increments whose loop is shown: all without cycles, else those before the cycles, the first computed
 /// cycle and the last one.
-pub(super) fn shown(increments: &[IncrementRecord]) -> Vec<IncrementRecord> {
+pub(super) fn selected(increments: &[IncrementRecord]) -> Vec<IncrementRecord> {
     let cycles = cycles(increments);
     let [first, .., last] = &cycles[..] else { return increments.to_vec() };
     let until = first.increments.last().map_or(0, |last| last.increment);

@@ -10,7 +10,7 @@ pub(crate) fn curves(increments: &[IncrementRecord]) -> Vec<Curves> {
     if increments.iter().any(|increment| increment.creep.is_some()) {
         return over_time(increments);
     }
-    let curves = Curves::new("loading", "force over displacement", chart(&fretting::shown(increments)));
+    let curves = Curves::new("loading", "force over displacement", chart(&fretting::selected(increments)));
     std::iter::once(curves).chain(fretting::curves(increments)).collect()
 }
 

@@ -83,7 +83,7 @@ pub struct Curves {
 
 impl Curves {
     fn new(name: &'static str, title: impl Into<String>, charts: impl Into<Charts>) -> Self {
-        let caption = captions::of(name).unwrap_or_default();
+        let caption = captions::find(name).unwrap_or_default();
         Self { name, title: title.into(), caption, charts: charts.into() }
     }
 }

@@ -360,7 +360,7 @@ fn section(results: &Results, pressure: &StoredArray, step: &StepRecord) -> Resu
         pitch: pressure.grid.pitch,
         column: pressure.column,
     };
-    Profile::of(&facing, spot, &case)
+    Profile::through(&facing, spot, &case)
 }
 
 /// Sa, Sq, Ssk, Sk, Spk and Svk of both bodies.

@@ -57,7 +57,7 @@ pub(super) struct Profile {
 
 impl Profile {
     /// The section through the cell of the largest pressure, [`most_loaded`]; none without a known approach.
-    pub(super) fn of(facing: &OverlapFields, [ix, iy]: [usize; 2], case: &Case) -> Result<Option<Self>> {
+    pub(super) fn through(facing: &OverlapFields, [ix, iy]: [usize; 2], case: &Case) -> Result<Option<Self>> {
         if !facing.approach.is_finite() {
             return Ok(None);
         }

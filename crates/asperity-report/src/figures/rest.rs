@@ -216,7 +216,7 @@ impl Section<'_> {
             pitch: self.pressure.grid.pitch,
             column: 0,
         };
-        Ok(Profile::of(&facing, spot, case)?.map(Profile::charts))
+        Ok(Profile::through(&facing, spot, case)?.map(Profile::charts))
     }
 }
 

@@ -29,9 +29,9 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     }
     let fields = found.fields(found.results.subsurface_fields(pass))?;
     let shown = stress(&fields);
-    let (map, rows) = found.kept(shown)?;
+    let (map, rows) = found.ok_or_note(shown)?;
     let mut html = facts(rows) + &plane::html(vec![map], data);
-    let columns = found.kept(figures::stress_columns(&fields)).flatten();
+    let columns = found.ok_or_note(figures::stress_columns(&fields)).flatten();
     html += &curves::html(columns.into_iter().collect(), charts);
     Some(html)
 }
@@ -84,7 +84,7 @@ fn stress(fields: &Fields) -> Result<CaptionedPlane> {
             "Von Mises stress in the {body} body in the section y = {}.",
             format(number("section"), Dimension::Length)
         ),
-        caption: captions::of("subsurface").unwrap_or_default(),
+        caption: captions::find("subsurface").unwrap_or_default(),
         map: QuantisedField::positive(&section, pitch),
         x,
         down: true,

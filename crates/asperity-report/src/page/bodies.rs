@@ -39,8 +39,8 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     });
     let mut html = shown(found, bodies, data);
 
-    let before = found.kept(figures::as_measured(&before))?;
-    let after = after.as_ref().and_then(|after| found.kept(figures::as_measured(after)));
+    let before = found.ok_or_note(figures::as_measured(&before))?;
+    let after = after.as_ref().and_then(|after| found.ok_or_note(figures::as_measured(after)));
     // Roughness parameters of a ball or a plane say nothing.
     let forms = [&found.case.lower, &found.case.upper].map(|body| is_form(&body.topography));
     if forms.contains(&false) && before.iter().all(|body| body.grid().cells() <= MAX_CELLS) {
@@ -92,7 +92,7 @@ fn of_motion(found: &mut PageData) -> Option<[Pair; 2]> {
         let both = |fields| -> Result<_> {
             Ok([StoredArray::read(fields, "lower")?, StoredArray::read(fields, "upper")?])
         };
-        found.kept(both(&fields))
+        found.ok_or_note(both(&fields))
     };
     let before = read(0);
     before.is_some().then(|| [before, if last > 0 { read(last) } else { None }])
@@ -105,7 +105,7 @@ fn of_rest(found: &mut PageData) -> Option<Pair> {
     let fields = found.fields(found.results.static_fields())?;
     let both = StoredArray::read(&fields, "lower")
         .and_then(|lower| Ok([lower, StoredArray::read(&fields, "upper")?]));
-    Some(found.kept(both))
+    Some(found.ok_or_note(both))
 }
 
 /// Whether the fields of a static contact are there.
@@ -183,8 +183,8 @@ fn kept(found: &mut PageData, body: &str) -> Vec<Value> {
         (true, last) => found.results.fields_after(last),
         (false, _) => found.results.static_fields(),
     };
-    let Some(fields) = found.kept(fields) else { return Vec::new() };
-    let Some(names) = found.kept(fields.names()) else { return Vec::new() };
+    let Some(fields) = found.ok_or_note(fields) else { return Vec::new() };
+    let Some(names) = found.ok_or_note(fields.names()) else { return Vec::new() };
     let mut maps = Vec::new();
     for kept in with::kept() {
         let name = kept.names[usize::from(body == "upper")];
@@ -192,7 +192,7 @@ fn kept(found: &mut PageData, body: &str) -> Vec<Value> {
         if kept.raises < 0.0 && found.moves() {
             continue;
         }
-        if let Some(stored) = found.kept(StoredArray::read(&fields, name)) {
+        if let Some(stored) = found.ok_or_note(StoredArray::read(&fields, name)) {
             let map = QuantisedField::positive(&stored.field, stored.grid.pitch);
             let unit = curves::unit(Unit::Length, map.high);
             let title = format!("{} the {body} body.", of.of_body);

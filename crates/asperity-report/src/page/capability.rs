@@ -32,8 +32,8 @@ fn section<C: Capability>(
     data: &mut Value,
     charts: &mut Vec<Value>,
 ) -> String {
-    let rows = found.kept(found.results.rows::<C>()).unwrap_or_default();
-    let done = figures::done(&found.kept(found.results.passes()).unwrap_or_default());
+    let rows = found.ok_or_note(found.results.rows::<C>()).unwrap_or_default();
+    let done = figures::done(&found.ok_or_note(found.results.passes()).unwrap_or_default());
     let last: Vec<C::Row> = of_last(&C::summary(&rows)).cloned().collect();
     let numbers = last.iter().flat_map(|row| asked.numbers(row));
     let numbers: Vec<_> = numbers.map(|line| (line.name.into_owned(), escaped(&line.value))).collect();

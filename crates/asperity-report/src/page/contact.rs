@@ -72,8 +72,9 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
         return Some(html);
     }
     if let Some((maps, block)) = found.take_maps() {
-        let approach = found
-            .kept(found.results.static_fields().map_err(Into::into).and_then(|f| figures::approach(&f)))?;
+        let approach = found.ok_or_note(
+            found.results.static_fields().map_err(Into::into).and_then(|f| figures::approach(&f)),
+        )?;
         let frame = Frame { approach, ..Frame::at_rest() };
         let mut html = SCRUBBER.to_owned() + &in_blocks(block, false);
         data["contact"] = shown(&[frame.with_maps(maps)], groups);
@@ -92,8 +93,8 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
         data["contact"]["begin"] = begin.into();
     }
     if has_rest(found.results)
-        && let Some(fields) = found.kept(found.results.static_fields())
-        && let Some(profile) = found.kept(figures::profile_at_rest(&fields, &found.case))
+        && let Some(fields) = found.ok_or_note(found.results.static_fields())
+        && let Some(profile) = found.ok_or_note(figures::profile_at_rest(&fields, &found.case))
     {
         let of = match found.points.len() {
             0 => String::new(),
@@ -107,7 +108,7 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
 /// HTML with places for the section through the most loaded spot, `of` a point.
 fn section_of(profile: Option<Charts>, of: &str, charts: &mut Vec<Value>) -> String {
     if let Some(profile) = profile {
-        let caption = captions::of("profile").unwrap_or_default();
+        let caption = captions::find("profile").unwrap_or_default();
         let charts_of = Curves { charts: profile, name: "profile", title: String::new(), caption };
         let places = curves::html(vec![charts_of], charts);
         if !places.is_empty() {
@@ -150,7 +151,7 @@ fn of_motion(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) ->
         return Some(format!("<p>{why}</p>"));
     }
     let fields = found.fields(found.results.fields_after(last))?;
-    let names = found.kept(fields.names())?;
+    let names = found.ok_or_note(fields.names())?;
     let is_kept = |step: &&StepRecord| names.contains(&pressure_name(step.step));
     let kept: Vec<usize> =
         found.steps.iter().filter(|s| s.pass == last).filter(is_kept).map(|s| s.step).collect();
@@ -166,16 +167,16 @@ fn of_motion(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) ->
         let opened = if pass == last { None } else { Some(found.fields(found.results.fields_after(pass))) };
         let Some(fields) = opened.as_ref().map_or(Some(&fields), Option::as_ref) else { continue };
         let read = read_pass(found, fields, pass, &positions, groups.len());
-        let Some(read) = found.kept(read) else { continue };
+        let Some(read) = found.ok_or_note(read) else { continue };
         if pass == last {
-            let cap = found.kept(Cap::read(fields))?;
+            let cap = found.ok_or_note(Cap::read(fields))?;
             histogram = Some(figures::histogram(read.iter().map(Frame::pressure), &cap));
         }
         remark = blocks(&read);
         frames.extend(all_packed(read));
         groups.push(json!({
             "label": format!("pass {}", found.done[pass]),
-            "changes": found.kept(changes_before(found, pass)),
+            "changes": found.ok_or_note(changes_before(found, pass)),
             "known": !figures::has_new_upper(&found.case, pass),
         }));
     }
@@ -193,7 +194,7 @@ fn of_motion(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) ->
         );
     }
     let title = format!("distribution of the pressure over the contact, pass {}", found.done[last]);
-    let caption = captions::of("pressure_histogram").unwrap_or_default();
+    let caption = captions::find("pressure_histogram").unwrap_or_default();
     let histogram = histogram.map(|charts| Curves { name: "pressure_histogram", title, caption, charts });
     html += &curves::html(histogram.into_iter().collect(), charts);
     Some(html)
@@ -333,7 +334,7 @@ fn of_sweep(found: &mut PageData) -> Vec<Frame> {
             found.results.static_fields()
         };
         let Some(fields) = found.fields(opened) else { continue };
-        let Some(maps) = found.kept(at_rest(&fields)) else { continue };
+        let Some(maps) = found.ok_or_note(at_rest(&fields)) else { continue };
         frames.push(Frame {
             group: 0,
             label: point_of(point.point, points.len()),
@@ -390,7 +391,7 @@ fn of_increments(found: &mut PageData) -> Option<Vec<Frame>> {
     for increment in chosen(&kept, |increment| answering_rank(StepRow::Increment(increment))) {
         let opened = found.results.increment_fields(increment.increment);
         let Some(fields) = found.fields(opened) else { continue };
-        let Some(maps) = found.kept(at_rest(&fields)) else { continue };
+        let Some(maps) = found.ok_or_note(at_rest(&fields)) else { continue };
         frames.push(Frame {
             label: format!("increment {} of {}", increment.increment, increments.len()),
             text: format!(
@@ -414,8 +415,8 @@ fn of_rest(found: &mut PageData) -> Option<Vec<Frame>> {
         return None;
     }
     let fields = found.fields(found.results.static_fields())?;
-    let maps = found.kept(at_rest(&fields))?;
-    let approach = found.kept(figures::approach(&fields))?;
+    let maps = found.ok_or_note(at_rest(&fields))?;
+    let approach = found.ok_or_note(figures::approach(&fields))?;
     Some(vec![Frame { approach, fields: maps, ..Frame::at_rest() }])
 }
 
@@ -555,7 +556,7 @@ fn shown(frames: &[PageFrame], groups: Vec<Value>) -> Value {
         layers.push(json!({
             "name": layer.name,
             "title": layer.title,
-            "caption": if pulls { Some("Pressure on each cell; tension is below 0.") } else { captions::of(layer.name) },
+            "caption": if pulls { Some("Pressure on each cell; tension is below 0.") } else { captions::find(layer.name) },
             "kind": kind,
             "classes": classes,
             // Each pass has its own, so that a late pass of low pressures shows them.

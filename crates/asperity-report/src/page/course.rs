@@ -44,7 +44,7 @@ pub(super) fn over_speed(found: &PageData, charts: &mut Vec<Value>) -> Option<St
 /// Sq of both bodies before the first pass.
 fn roughness_before(found: &mut PageData) -> [f64; 2] {
     let sq = found.results.surfaces_after(0).map(|bodies| bodies.map(|body| spread(body.heights())));
-    found.kept(sq).unwrap_or([f64::NAN; 2])
+    found.ok_or_note(sq).unwrap_or([f64::NAN; 2])
 }
 
 /// The section; none of a contact in one step.

@@ -33,7 +33,7 @@ pub(super) struct Quantity {
 impl Quantity {
     /// How its numbers are shown.
     pub(super) fn measure(&self) -> Measure {
-        Measure::of(&self.name, largest(&self.values))
+        Measure::of_column(&self.name, largest(&self.values))
     }
 }
 

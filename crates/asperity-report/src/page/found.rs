@@ -43,14 +43,14 @@ impl<'a> PageData<'a> {
         let mut missing = Vec::new();
         let (case, resolved) = (results.case()?, results.case_json()?);
         let finished = fs::exists(results.directory().join("summary.json"));
-        let summary = if finished { kept(results.summary(), &mut missing) } else { None };
-        let passes = kept(results.passes(), &mut missing).unwrap_or_default();
+        let summary = if finished { ok_or_note(results.summary(), &mut missing) } else { None };
+        let passes = ok_or_note(results.passes(), &mut missing).unwrap_or_default();
         Ok(Self {
             done: crate::figures::done(&passes),
-            steps: kept(results.steps(), &mut missing).unwrap_or_default(),
-            increments: kept(results.increments(), &mut missing).unwrap_or_default(),
-            updates: kept(results.updates(), &mut missing).unwrap_or_default(),
-            points: kept(results.sweep(), &mut missing).unwrap_or_default(),
+            steps: ok_or_note(results.steps(), &mut missing).unwrap_or_default(),
+            increments: ok_or_note(results.increments(), &mut missing).unwrap_or_default(),
+            updates: ok_or_note(results.updates(), &mut missing).unwrap_or_default(),
+            points: ok_or_note(results.sweep(), &mut missing).unwrap_or_default(),
             results,
             case,
             resolved,
@@ -81,14 +81,14 @@ impl<'a> PageData<'a> {
         self.prepared.as_ref().map(|prepared| &prepared.pictures[..])
     }
 
-    /// What was read; none where that failed, which is then told.
-    pub(super) fn kept<T>(&mut self, read: impl Into<ReadResult<T>>) -> Option<T> {
-        kept(read, &mut self.missing)
+    /// Returns what was read. If that failed, notes the message and returns `None`.
+    pub(super) fn ok_or_note<T>(&mut self, read: impl Into<ReadResult<T>>) -> Option<T> {
+        ok_or_note(read, &mut self.missing)
     }
 
     /// A file of fields that is whole.
     pub(super) fn fields(&mut self, opened: asperity_base::Result<Fields>) -> Option<Fields> {
-        self.kept(opened.and_then(|fields| fields.verify().map(|()| fields)))
+        self.ok_or_note(opened.and_then(|fields| fields.verify().map(|()| fields)))
     }
 
     /// The table of that file, if it is there.
@@ -125,7 +125,7 @@ impl<T> From<Result<T>> for ReadResult<T> {
     }
 }
 
-fn kept<T>(read: impl Into<ReadResult<T>>, missing: &mut Vec<String>) -> Option<T> {
+fn ok_or_note<T>(read: impl Into<ReadResult<T>>, missing: &mut Vec<String>) -> Option<T> {
     match read.into().0 {
         Ok(read) => Some(read),
         Err(message) => {

@@ -36,7 +36,7 @@ fn html(found: &PageData, name: &str, labels: &[(&str, &str)], charts: &mut Vec<
         summary.interface.record().and_then(|numbers| serde_json::to_value(numbers).ok())
     {
         let place = |name: &str| labels.iter().position(|(column, _)| column.replace('_', " ") == name);
-        let mut named = numbers::of(name, &record, &record);
+        let mut named = numbers::of_record(name, &record, &record);
         named.sort_by_key(|(name, _)| place(name).unwrap_or(labels.len()));
         // A number with its meaning beside it.
         let with_meaning = named.into_iter().map(|(name, value)| {
@@ -51,7 +51,7 @@ fn html(found: &PageData, name: &str, labels: &[(&str, &str)], charts: &mut Vec<
             last.interface.and_then(|record| serde_json::to_value(record).ok())
     {
         html += &format!("<h3>Pass {}</h3>", found.done[found.passes.len()]);
-        html += &facts(numbers::of(&format!("passes.{}", found.passes.len() - 1), &record, &record));
+        html += &facts(numbers::of_record(&format!("passes.{}", found.passes.len() - 1), &record, &record));
     }
     if let Outcome::Static(record) = &summary.outcome
         && let Some(record) = &summary.interface.as_shown(record).interface

@@ -53,5 +53,5 @@ pub(super) fn levels_of(name: &str, array: &StoredArray, pulls: bool) -> Option<
         Kind::Signed | Kind::Between => Levels::even(field, *pitch),
         Kind::Classes(_) => Levels::classes(field, *pitch),
     };
-    Some(levels.at([*place, 0.0], *pitch))
+    Some(levels.with_corner([*place, 0.0], *pitch))
 }

@@ -30,7 +30,7 @@ impl LivePage {
         }
         let began = Instant::now();
         if let Ok(results) = results() {
-            let _ = super::write(&results, &super::of(&results));
+            let _ = super::write(&results, &super::path_of(&results));
         }
         self.took(began.elapsed());
     }

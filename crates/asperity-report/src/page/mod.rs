@@ -65,7 +65,7 @@ pub const FILE: &str = "report.html";
 /// read is left out and named.
 pub fn make(directory: &Path, out: Option<&Path>) -> asperity_base::Result<PathBuf> {
     let results = Results::open(directory)?;
-    let path = out.map_or_else(|| of(&results), Path::to_owned);
+    let path = out.map_or_else(|| path_of(&results), Path::to_owned);
     write(&results, &path)?;
     Ok(path)
 }
@@ -85,14 +85,14 @@ pub fn map_of_heights(heights: &Field, pitch: [Metre; 2]) -> Value {
 }
 
 /// Where the page of a results directory is.
-pub fn of(results: &Results) -> PathBuf {
+pub fn path_of(results: &Results) -> PathBuf {
     results.directory().join(FILE)
 }
 
 /// Writes the page of `results` to `path`, and gives what could not be read and is not on it; where that
 /// fails the one that is there stays.
 pub fn write(results: &Results, path: &Path) -> asperity_base::Result<Vec<String>> {
-    write_with(results, witness::seen(results), path)
+    write_with(results, witness::parts(results), path)
 }
 
 /// [`write()`] with the parts of the page that have been made already.

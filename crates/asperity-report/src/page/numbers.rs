@@ -6,7 +6,7 @@ use super::html::{escaped, number};
 use super::table::text_of;
 
 /// The numbers of a record, the most asked for first, with the texts of the record that is `shown`.
-pub(super) fn of(
+pub(super) fn of_record(
     key: &str,
     record: &Map<String, Value>,
     shown: &Map<String, Value>,

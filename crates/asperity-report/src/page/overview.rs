@@ -27,7 +27,7 @@ pub(super) struct Overview<'a> {
 
 impl<'a> Overview<'a> {
     /// The overview of a table with these quantities, the answers first; `None` without numbers.
-    pub(super) fn of(table: &'a Table, quantities: &'a [Quantity]) -> Option<Self> {
+    pub(super) fn new(table: &'a Table, quantities: &'a [Quantity]) -> Option<Self> {
         let answers = quantities.iter().take_while(|quantity| quantity.is_answer).count();
         let main = if answers > 0 { answers.min(MOST) } else { WITHOUT };
         let quantities: Vec<_> =
@@ -35,7 +35,7 @@ impl<'a> Overview<'a> {
         let spread = |cases: &[usize]| {
             quantities
                 .iter()
-                .map(|(quantity, _)| Spread::of(cases.iter().map(|n| quantity.values[*n])))
+                .map(|(quantity, _)| Spread::from_values(cases.iter().map(|n| quantity.values[*n])))
                 .collect()
         };
         let rows: Vec<_> =

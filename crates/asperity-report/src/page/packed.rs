@@ -123,8 +123,8 @@ impl Levels {
     }
 
     /// The same field with its corner there on the lower body, in cells as they were before a reduction.
-    pub(super) fn at(self, corner: [f64; 2], cell: [f64; 2]) -> Self {
-        Self { field: self.field.at(corner, cell), ..self }
+    pub(super) fn with_corner(self, corner: [f64; 2], cell: [f64; 2]) -> Self {
+        Self { field: self.field.with_corner(corner, cell), ..self }
     }
 
     /// The field as it goes onto the page.
@@ -155,7 +155,7 @@ impl QuantisedField {
     }
 
     /// The same field with its corner there on the lower body, in cells as they were before a reduction.
-    pub(super) fn at(self, [x, y]: [f64; 2], cell: [f64; 2]) -> Self {
+    pub(super) fn with_corner(self, [x, y]: [f64; 2], cell: [f64; 2]) -> Self {
         let corner = [x * cell[0] / self.pitch[0], y * cell[1] / self.pitch[1]];
         Self { corner, ..self }
     }

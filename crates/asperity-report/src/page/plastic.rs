@@ -24,7 +24,7 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     let is_due = if found.moves() { pass.is_some() } else { found.is_finished() };
     if is_due || fs::exists(found.directory().join(file)) {
         let fields = found.fields(found.results.plastic_fields(pass));
-        let bodies = fields.and_then(|fields| found.kept(figures::plastic_sections(&fields)));
+        let bodies = fields.and_then(|fields| found.ok_or_note(figures::plastic_sections(&fields)));
         for body in bodies.into_iter().flatten() {
             html += &of_body(body, data);
         }
@@ -51,7 +51,7 @@ fn of_body(plastic_sections: PlasticSection, data: &mut Value) -> String {
     let section = |name: &str, title: String, map, quantity, unit, shades| Plane {
         file: format!("{name}_{body}"),
         title,
-        caption: captions::of(name).unwrap_or_default(),
+        caption: captions::find(name).unwrap_or_default(),
         map,
         x: 0.0,
         down: true,

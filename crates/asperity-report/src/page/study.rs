@@ -56,7 +56,7 @@ const SHOWN: [&str; 28] = [
 /// values; empty without numbers.
 pub fn answers_of_study(table: &Table) -> String {
     let quantities = explorer::quantities(table, &SHOWN);
-    Overview::of(table, &quantities).map_or(String::new(), |overview| overview.text())
+    Overview::new(table, &quantities).map_or(String::new(), |overview| overview.text())
 }
 
 /// Writes the page of a study whose cases are in `table` to `path`; where that fails the one that is there
@@ -69,7 +69,7 @@ pub fn write_study(study: &Study, table: &Table, path: &Path) -> asperity_base::
 fn page(study: &Study, table: &Table, directory: &Path) -> String {
     let quantities = explorer::quantities(table, &SHOWN);
     let has_chart = !quantities.is_empty() && table.axes().iter().any(|axis| measure(axis).is_some());
-    let overview = Overview::of(table, &quantities);
+    let overview = Overview::new(table, &quantities);
     let sections: [Section; 4] = [
         ("answers", "Answers", overview.as_ref().map(Overview::html)),
         ("curves", "Chart", has_chart.then(|| "<div id=\"explorer\"></div>".to_owned())),

@@ -64,7 +64,7 @@ impl Table {
         let shown = evenly(self.rows.len(), MAX_ROWS);
         let all = 0..self.columns.len();
         let measures: Vec<Measure> =
-            all.map(|column| Measure::of(&self.columns[column], self.largest(column))).collect();
+            all.map(|column| Measure::of_column(&self.columns[column], self.largest(column))).collect();
         let is_hidden: Vec<bool> = (0..self.columns.len()).map(|column| self.says_nothing(column)).collect();
         let mut left_out = Vec::new();
         if shown.len() < self.rows.len() {
@@ -141,7 +141,7 @@ pub(super) struct Measure {
 
 impl Measure {
     /// That of a column, in the unit that suits its `largest` number.
-    pub(super) fn of(column: &str, largest: f64) -> Self {
+    pub(super) fn of_column(column: &str, largest: f64) -> Self {
         let kind = kind(column);
         let unit = match kind {
             Kind::Of(dimension) => dimension.multiple(largest),

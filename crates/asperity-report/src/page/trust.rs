@@ -58,7 +58,7 @@ pub(super) fn section(found: &PageData) -> String {
         && let (Ok(Value::Object(record)), Ok(Value::Object(shown))) =
             (serde_json::to_value(record), serde_json::to_value(shown))
     {
-        html += &details("All numbers of the contact", &facts(numbers::of("static", &record, &shown)));
+        html += &details("All numbers of the contact", &facts(numbers::of_record("static", &record, &shown)));
     }
     html += &details("The case with all its defaults", &case::html(&found.resolved));
     html += &details("Files", &files(found.directory()));

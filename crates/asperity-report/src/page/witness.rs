@@ -71,7 +71,7 @@ pub fn gathered<'a>(
 }
 
 /// Makes the parts of the page that show the arrays of a large static contact without friction.
-pub(super) fn seen(results: &Results) -> Option<Seen> {
+pub(super) fn parts(results: &Results) -> Option<Seen> {
     let nothing = FigureOptions { only: vec![String::new()], ..FigureOptions::default() };
     seen_on(&large_contact(results)?, results, &nothing, &|| false).1
 }

@@ -85,7 +85,7 @@ const CAPTIONS: [(&str, &str); 41] = [
 ];
 
 /// Returns the caption of a figure; `None` for one that its title explains.
-pub(crate) fn of(name: &str) -> Option<&'static str> {
+pub(crate) fn find(name: &str) -> Option<&'static str> {
     CAPTIONS.iter().find(|(known, _)| *known == name).map(|(_, caption)| *caption)
 }
 

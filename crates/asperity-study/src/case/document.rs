@@ -22,11 +22,11 @@ pub(crate) struct Document {
 
 impl Document {
     pub(super) fn new(file: PathBuf, text: &str) -> Self {
-        Self::of("the case", file, text)
+        Self::named("the case", file, text)
     }
 
     /// Creates the document of a file called `noun` in messages.
-    pub(crate) fn of(noun: &'static str, file: PathBuf, text: &str) -> Self {
+    pub(crate) fn named(noun: &'static str, file: PathBuf, text: &str) -> Self {
         Self { noun, file, text: text.to_owned(), spans: BTreeMap::new() }
     }
 

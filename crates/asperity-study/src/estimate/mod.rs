@@ -158,7 +158,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         plastic_limit,
         gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
         interface: InterfaceNumbers::default(),
-        closed_form: ClosedForm::of(case, lower_grid.extent(), control)
+        closed_form: ClosedForm::from_case(case, lower_grid.extent(), control)
             .filter(|_| case.interface.is_empty() && !case.relaxes())
             .filter(|form| form.max_pressure.is_none_or(|pressure| pressure <= hardness)),
         subsurface: Plan::new(case, [&lower_grid, &upper_grid], &positions)?,

@@ -40,7 +40,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    pub(super) fn of(case: &Case, pair: &Pair, estimate: &Estimate) -> Self {
+    pub(super) fn new(case: &Case, pair: &Pair, estimate: &Estimate) -> Self {
         let unless = |known: bool, bound: f64| if known { f64::INFINITY } else { bound };
         let bodies = [&pair.lower, &pair.upper].map(|body| &body.heights);
         let sq = bodies.iter().fold(0.0, |all: f64, heights| all.hypot(heights.std(0.0)));

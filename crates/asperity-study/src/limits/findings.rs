@@ -52,7 +52,7 @@ pub(super) struct ContactFindings {
 }
 
 impl ContactFindings {
-    pub(super) fn of(step: usize, solution: &Solution) -> Self {
+    pub(super) fn new(step: usize, solution: &Solution) -> Self {
         let capped = |(cell, p): &(usize, &f64)| solution.bounds.caps(*cell, **p);
         Self {
             step,
@@ -75,11 +75,11 @@ impl ContactFindings {
 }
 
 impl<'a> Findings<'a> {
-    pub(super) fn of(step: &Step<'a>) -> Self {
+    pub(super) fn from_step(step: &Step<'a>) -> Self {
         if let Some(report) = step.pass() {
-            return Self::of_pass(report);
+            return Self::from_pass(report);
         }
-        let contact = step.contact.map(|solution| ContactFindings::of(step.number, solution));
+        let contact = step.contact.map(|solution| ContactFindings::new(step.number, solution));
         let found =
             Self { contacts: contact.into_iter().collect(), changed: step.changed, ..Self::default() };
         match step.row {
@@ -105,7 +105,7 @@ impl<'a> Findings<'a> {
         }
     }
 
-    fn of_pass(report: &PassReport<'a>) -> Self {
+    fn from_pass(report: &PassReport<'a>) -> Self {
         let PassReport { record, steps, contacts, pair, .. } = *report;
         let width = pair.lower.width();
         let contacts = contacts.iter().enumerate();

@@ -69,7 +69,7 @@ impl Limits {
         estimate: &Estimate,
         (writer, done): (Option<&Writer>, Option<usize>),
     ) -> Result<Self> {
-        let (bounds, case) = (Bounds::of(case, pair, estimate), case.clone());
+        let (bounds, case) = (Bounds::new(case, pair, estimate), case.clone());
         let Some(writer) = writer else {
             return Ok(Self { case, bounds, broken: Vec::new(), new: 0, table: None });
         };
@@ -86,7 +86,7 @@ impl Limits {
     /// # Errors
     /// [`asperity_base::Error::File`].
     pub(super) fn contact(&mut self, solution: &Solution) -> Result<()> {
-        self.compare(&Findings { contacts: vec![ContactFindings::of(1, solution)], ..Findings::default() })
+        self.compare(&Findings { contacts: vec![ContactFindings::new(1, solution)], ..Findings::default() })
     }
 
     /// Returns a warning for each broken limit.
@@ -112,7 +112,7 @@ impl Limits {
 
 impl Output for Limits {
     fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        self.compare(&Findings::of(step))
+        self.compare(&Findings::from_step(step))
     }
 
     fn warnings(&self) -> Vec<String> {

@@ -49,7 +49,7 @@ pub(super) fn load(path: &Path) -> Result<StudyFile> {
 
 pub(super) fn read(text: &str, path: &Path) -> Result<StudyFile> {
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut document = Document::of("the study", path.to_owned(), text);
+    let mut document = Document::named("the study", path.to_owned(), text);
     let entries = document.parse(text)?;
     let root = Table::root(&document, entries.get_ref());
     root.known(&["title", "base", "axes", "table", "exclude"], belongs)?;
@@ -98,7 +98,7 @@ fn base(root: &Table<'_>, folder: &Path, document: &Document, text: &str) -> Res
     let name = entry.text()?;
     let path = folder.join(name);
     let text = text_of(&path, "a case file", MAX_CASE_BYTES).map_err(|error| at(&entry, &error))?;
-    let mut document = Document::of("the case", path.clone(), &text);
+    let mut document = Document::named("the case", path.clone(), &text);
     document.parse(&text)?;
     let table = toml::from_str(&text).expect("what has been parsed once is TOML");
     Ok(Base::new(table, [path.parent().unwrap_or(Path::new("")), folder], document, ""))
@@ -114,7 +114,7 @@ fn at(entry: &Entry<'_>, error: &Error) -> Error {
 fn rows(entry: &Entry<'_>, folder: &Path, axes: &mut Vec<Axis>) -> Result<Rows> {
     let path: PathBuf = folder.join(entry.text()?);
     let text = text_of(&path, "a table of cases", MAX_TABLE_BYTES).map_err(|error| at(entry, &error))?;
-    let document = Document::of("the table", path.clone(), &text);
+    let document = Document::named("the table", path.clone(), &text);
     let wrong = |error: csv::Error| {
         let at = error.position().map_or(0, |position| position.byte() as usize);
         document.error("", line_from(&text, at), error.to_string(), None)

@@ -47,7 +47,7 @@ pub struct Tally {
 
 impl Tally {
     /// Counts cases by state.
-    pub fn of<'s>(states: impl IntoIterator<Item = &'s State>) -> Self {
+    pub fn from_states<'s>(states: impl IntoIterator<Item = &'s State>) -> Self {
         let mut tally = Self::default();
         for state in states {
             *match state {

@@ -17,7 +17,7 @@ pub struct Spread {
 
 impl Spread {
     /// Returns the spread of the finite values; `None` without any.
-    pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
+    pub fn from_values(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let values: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
         let count = values.len();
         let mean = values.iter().sum::<f64>() / count as f64;
@@ -52,8 +52,9 @@ mod tests {
 
     #[test]
     fn a_spread_is_that_of_the_known_values() {
-        let spread =
-            |values: &[f64]| Spread::of(values.iter().copied()).map(|s| (s.mean, s.deviation, s.count));
+        let spread = |values: &[f64]| {
+            Spread::from_values(values.iter().copied()).map(|s| (s.mean, s.deviation, s.count))
+        };
         assert_eq!(spread(&[1.0, 2.0, f64::NAN, 3.0]), Some((2.0, Some(1.0), 3)));
         assert_eq!(spread(&[5.0]), Some((5.0, None, 1)));
         assert_eq!(spread(&[f64::NAN]), None);

@@ -38,7 +38,7 @@ impl Columns {
             let is_head = line.cells.iter().eq(head.titles.iter().map(|title| &title.text));
             if line.has_numbers(places) {
                 lines.push(line);
-            } else if !is_head && Head::of(line).names_a_modulus() {
+            } else if !is_head && Head::from_line(line).names_a_modulus() {
                 return Err(format!(
                     "line {} names other columns than line {}: a second table begins there",
                     line.number, head.line

@@ -21,7 +21,7 @@ impl Head {
     fn of_signals(lines: &[Line]) -> Option<Self> {
         let signal = |line: &Line| {
             let number = line.cells[0].strip_prefix("Sig")?.parse::<u16>().ok();
-            number.map(|_| (line.number, Title::of(line.cell(1))))
+            number.map(|_| (line.number, Title::from_text(line.cell(1))))
         };
         let (lines, titles): (Vec<usize>, Vec<Title>) = lines.iter().filter_map(signal).unzip();
         Some(Self { line: *lines.last()?, titles })
@@ -30,7 +30,8 @@ impl Head {
     /// The last `suitable` line that names a modulus above the first numbers. A description above it may name
     /// one, too.
     fn above_numbers(lines: &[Line], suitable: impl Fn(&Line) -> bool) -> Option<Self> {
-        let head = |line: &Line| Some(Self::of(line)).filter(|head| suitable(line) && head.names_a_modulus());
+        let head =
+            |line: &Line| Some(Self::from_line(line)).filter(|head| suitable(line) && head.names_a_modulus());
         let first = lines.iter().position(|line| head(line).is_some())?;
         let has_numbers =
             |line: &Line| !line.is_comment && line.cells.iter().filter(|cell| is_number(cell)).count() > 2;
@@ -40,7 +41,7 @@ impl Head {
 
     /// Titles that name nothing else: units of frequency, storage modulus and loss modulus, in this order.
     fn by_position(line: &Line) -> Option<Self> {
-        let mut head = Self::of(line);
+        let mut head = Self::from_line(line);
         let quantities = [Quantity::Frequency, Quantity::Storage, Quantity::Loss];
         for (title, quantity) in head.titles.iter_mut().zip(quantities) {
             title.quantity = title.quantity.or(Some(quantity)).filter(|found| *found == quantity);
@@ -136,7 +137,7 @@ impl Head {
 /// its kind in the lines below, whose cells blanks may shift.
 fn unit_below(title: &Title, index: usize, lines: &[Line]) -> Option<f64> {
     let factor = |cell: &str| {
-        let unit = Some(Unit::of(cell)?);
+        let unit = Some(Unit::from_text(cell)?);
         Title { unit, text: String::new(), ..*title }.factor()
     };
     let below = lines.iter().find_map(|line| factor(line.cell(index)));

@@ -40,7 +40,12 @@ const EXAMPLE: &str = "a line above the numbers names the columns with their uni
 /// # Errors
 /// [`Error::Case`](asperity_base::Error::Case) at its key if the file cannot be read or is no master curve;
 /// [`Error::SurfaceChanged`](asperity_base::Error::SurfaceChanged).
-pub(super) fn of(case: &Case, name: &str, body: &Body, given: &SurfaceInput) -> Result<Option<MasterCurve>> {
+pub(super) fn of_body(
+    case: &Case,
+    name: &str,
+    body: &Body,
+    given: &SurfaceInput,
+) -> Result<Option<MasterCurve>> {
     let Some(file) = body.properties.viscoelastic.as_ref().and_then(|body| body.file.as_ref()) else {
         return Ok(None);
     };

@@ -62,7 +62,7 @@ pub(super) enum Unit {
 
 impl Unit {
     /// Reads a unit; a pressure in any case of its letters.
-    pub(super) fn of(text: &str) -> Option<Self> {
+    pub(super) fn from_text(text: &str) -> Option<Self> {
         let text = text.trim().trim_matches(['(', ')', '[', ']']).trim();
         match text.replace("sec", "s").replace("⁻¹", "-1").replace(['^', '·', '.', '*', ' '], "").as_str()
         {
@@ -106,7 +106,7 @@ pub(super) struct Title {
 }
 
 impl Title {
-    pub(super) fn of(text: &str) -> Self {
+    pub(super) fn from_text(text: &str) -> Self {
         let (name, unit) = split(text);
         let name = simple(name);
         let words: Vec<&str> = name.split(|c: char| !(c.is_alphanumeric() || "'*".contains(c))).collect();
@@ -157,7 +157,7 @@ fn split(title: &str) -> (&str, Option<Unit>) {
     let places = bare.char_indices().filter(|(at, c)| "_([/, ".contains(*c) && !is_inverse(*at));
     let places = places.map(|(at, c)| (at, at + c.len_utf8()));
     let mut places = [(0, 0)].into_iter().chain(places);
-    match places.find_map(|(end, start)| Some((end, Unit::of(&bare[start..])?))) {
+    match places.find_map(|(end, start)| Some((end, Unit::from_text(&bare[start..])?))) {
         Some((end, unit)) => (bare[..end].trim_end().trim_end_matches(" in"), Some(unit)),
         None => (title, None),
     }
@@ -213,8 +213,8 @@ pub(super) struct Head {
 }
 
 impl Head {
-    pub(super) fn of(line: &Line) -> Self {
-        Self { line: line.number, titles: line.cells.iter().map(|cell| Title::of(cell)).collect() }
+    pub(super) fn from_line(line: &Line) -> Self {
+        Self { line: line.number, titles: line.cells.iter().map(|cell| Title::from_text(cell)).collect() }
     }
 
     pub(super) fn names_a_modulus(&self) -> bool {
@@ -277,16 +277,16 @@ mod tests {
             (Temperature, &["Temp./°C", "Temperature", "Probentemperatur"]),
         ] {
             for title in titles {
-                assert_eq!(Title::of(title).quantity, Some(quantity), "{title}");
+                assert_eq!(Title::from_text(title).quantity, Some(quantity), "{title}");
             }
         }
         for title in ["Storage compliance (1/MPa)", "log G' (Pa)", "ln E'", "Complex viscosity"] {
-            assert_eq!(Title::of(title).quantity, Some(Quantity::Other), "{title}");
+            assert_eq!(Title::from_text(title).quantity, Some(Quantity::Other), "{title}");
         }
         for title in ["Time (s)", "Loss energy", "Stress (MPa)", "#"] {
-            assert_eq!(Title::of(title).quantity, None, "{title}");
+            assert_eq!(Title::from_text(title).quantity, None, "{title}");
         }
-        assert_eq!(Title::of("x_Hz").quantity, Some(Frequency));
+        assert_eq!(Title::from_text("x_Hz").quantity, Some(Frequency));
     }
 
     #[test]
@@ -305,11 +305,11 @@ mod tests {
             ("omega [rad·s⁻¹]", 1.0 / TAU),
             ("δ (°)", TAU / 360.0),
         ] {
-            let found = Title::of(title).factor().unwrap();
+            let found = Title::from_text(title).factor().unwrap();
             assert!((found / factor - 1.0).abs() < 1e-12, "{title}: {found}");
         }
         for title in ["Frequency", "E'", "E' (Hz)", "f (MPa)", "δ"] {
-            assert_eq!(Title::of(title).factor(), None, "{title}");
+            assert_eq!(Title::from_text(title).factor(), None, "{title}");
         }
     }
 
@@ -322,7 +322,7 @@ mod tests {
             ("Schubspannung", Some(Deformation::Shear)),
             ("Storage modulus", None),
         ] {
-            assert_eq!(Title::of(title).deformation, deformation, "{title}");
+            assert_eq!(Title::from_text(title).deformation, deformation, "{title}");
         }
     }
 }

@@ -158,7 +158,7 @@ fn is_vacant(directory: &Path) -> io::Result<bool> {
 /// Returns the finished part, if the results belong to `case` and are complete.
 fn resumable(results: &Results, case: &Value) -> Result<ExistingResults> {
     identity::compare(results.directory(), &results.case_json()?, case)?;
-    let identity = identity::of(case);
+    let identity = identity::identity_of(case);
     if case.get("motion").is_some_and(Value::is_object) {
         return resumable_passes(results, case, &identity);
     }

@@ -371,7 +371,7 @@ impl Results {
     ///
     /// # Errors
     /// [`Error::File`].
-    pub fn found(&self) -> Result<Observations> {
+    pub fn observations(&self) -> Result<Observations> {
         let mut found = Observations::default();
         each!(capability C => C::add(&mut found, self.rows::<C>()?));
         Ok(found)

@@ -241,7 +241,7 @@ impl StepWriter {
             let path = results.subsurface_path(pass);
             let shear = |axis: usize| sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
             let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
-            let plan = plan.at(&contact.position, &pair.lower_grid());
+            let plan = plan.at_position(&contact.position, &pair.lower_grid());
             let placements = pair.placements(&contact.position);
             let states_under_load = report.plastic_volumes.iter().zip(report.states_under_load);
             let plastic_state = states_under_load.into_iter().find(|(volume, _)| volume.body == plan.side());

@@ -62,7 +62,7 @@ impl Writer {
             let finished: usize = results.passes()?.iter().map(PassRecord::represents).sum();
             *passes = passes.as_u64().unwrap_or(0).max(finished as u64).into();
         }
-        Ok(Self { results, identity: identity::of(&case), case, kept, lock })
+        Ok(Self { results, identity: identity::identity_of(&case), case, kept, lock })
     }
 
     /// The case of the results, the content of `case.json`: it has at least as many passes as are finished.

@@ -96,7 +96,7 @@ fn a_cycle_is_that_of_the_stresses_of_its_increments_one_by_one() {
                 let planes: Vec<_> = contacts.iter().map(plane).collect();
                 let found = field(&cyclic, &format!("over_limit_{:02}_{body}", k + 1));
                 for ((i, j), found) in found.indexed_iter() {
-                    let history: Vec<Stress> = planes.iter().map(|plane| plane.stress_at([i, j])).collect();
+                    let history: Vec<Stress> = planes.iter().map(|plane| plane.stress([i, j])).collect();
                     let expected = criterion.evaluate(&history)[0] / criterion.limit();
                     assert!((found - expected).abs() < 1e-8, "{boundary} {body} {depth}: {found} {expected}");
                 }
@@ -215,7 +215,7 @@ fn a_cycle_in_which_nothing_changes_has_the_hydrostatic_stress_alone() {
         let subsurface = Subsurface::new(result.fields.grid, case.contact.boundary, 0.3, &tractions(&result));
         let plane = subsurface.plane(depth);
         for ((i, j), found) in field(&result, &format!("over_limit_{:02}_lower", k + 1)).indexed_iter() {
-            let stress = plane.stress_at([i, j]);
+            let stress = plane.stress([i, j]);
             let mean = criterion.weight() * (stress.xx + stress.yy + stress.zz) / 3.0 / criterion.limit();
             assert!((found - mean).abs() < 1e-7, "{found} {mean}");
         }

@@ -230,7 +230,7 @@ fn has_one_table(name: &str, case: &Case, results: &Results) {
     }
     let found = match case.motion {
         Some(_) => results.summary().unwrap().found,
-        None => results.found().unwrap(),
+        None => results.observations().unwrap(),
     };
     let along = |axis: Axis| found.flow.iter().filter(move |row| row.along == axis).map(|row| row.leakage);
     assert_eq!(column("flow_x_leakage (m³/s)"), along(Axis::X).collect::<Vec<_>>(), "{name}");
