@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::Error;
 use asperity::solver::Device;
-use asperity::study::many::Study;
+use asperity::study::parametric::Study;
 use asperity::study::{Case, Results};
 use asperity::surface::ReadOptions;
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use asperity::Error;
-use asperity::study::many::{self, Computed, Folder, Queue, State, Study, Table, Tally, Task};
+use asperity::study::parametric::{self, Computed, Folder, Queue, State, Study, Table, Tally, Task};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::report::{Failure, Outcome, note, print};
@@ -116,7 +116,7 @@ fn compute(queue: &Queue, quiet: bool) -> Outcome {
         }
         bar.inc(1);
     };
-    let computed = many::compute(queue, machine::available(), &|| stop.asked(), &ended);
+    let computed = parametric::compute(queue, machine::available(), &|| stop.asked(), &ended);
     bar.finish_and_clear();
     computed.map_err(|error| match error {
         Error::Interrupted => Failure::StudyInterrupted,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::motion::Watch;
-use asperity::study::many::{
+use asperity::study::parametric::{
     self, Axis, Computed, Folder, Queue, State, Study, Table, TableColumn, Tally, Task,
 };
 use asperity::study::unit_of_column;
@@ -92,7 +92,7 @@ impl CoreStudy {
             let folder = Folder::enter(&self.directory, &self.study)?;
             let queue = Queue::new(&self.study, &folder, Task { number, of }, retry)?;
             let ended = |_: usize, _: &Computed| looking.over(queue.len());
-            many::compute(&queue, available_memory(), &|| looking.stop(), &ended)?;
+            parametric::compute(&queue, available_memory(), &|| looking.stop(), &ended)?;
             let states = self.stand(&folder)?;
             // The tables of a study that has grown belong to its present file.
             if Tally::from_states(&states).left() == 0 && !folder.has_grown(&self.study)? {

@@ -100,7 +100,7 @@ pub(crate) fn rest<'py>(
         warnings,
         ..
     } = work::run_warning(py, threads, progress.as_ref(), Some(&warn), |watch| {
-        study::rest(&case, given, watch)
+        study::static_contact(&case, given, watch)
     })?;
     let contact = PyDict::new(py);
     match outcome {

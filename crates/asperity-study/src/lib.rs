@@ -2,15 +2,15 @@
 //!
 //! [`Case::load`] reads a case file. [`bodies`] reads or generates its surfaces and prepares them. [`demand`]
 //! and [`estimate`] return cost and warnings in advance. [`run()`] does all of this and writes a [`Results`]
-//! directory with a [`Summary`]. [`many`] computes studies of many cases.
+//! directory with a [`Summary`]. [`parametric`] computes studies of many cases.
 //!
 //! | you have | use | you get |
 //! |---|---|---|
 //! | a case file | [`Case::load`], [`run()`] | results on disk, a [`Summary`] |
-//! | a case of a static contact, no disk | [`rest()`] | [`StaticResult`] with all fields |
+//! | a case of a static contact, no disk | [`static_contact()`] | [`StaticResult`] with all fields |
 //! | a case of a motion, pass by pass | [`Passes`] | each pass, and the bodies between passes |
 //! | results | [`Results::open`] | its case, tables and fields |
-//! | a study file | [`many::Study`] | a plan, its cases, a table |
+//! | a study file | [`parametric::Study`] | a plan, its cases, a table |
 //!
 //! Everything of a case is checked key by key, with the place of a mistake: see
 //! [`CaseError`](asperity_base::error::CaseError).
@@ -48,7 +48,7 @@
 //!
 //! **Foreign files.** Only regular files are read (`io::regular`), because a pipe or a device has no end.
 //!
-//! **Studies.** Several processes may share the cases of a study (`study::many`). They communicate only by
+//! **Studies.** Several processes may share the cases of a study (`study::parametric`). They communicate only by
 //! files and locks. A case is finished if its `summary.json` or its `failed.json` exists. A process takes a
 //! case by the lock of its results directory, checks again whether it is finished, and computes it under that
 //! lock. The plan holds the digests of the files that the study names (`files.rs`). A case passes them to
@@ -91,7 +91,7 @@ mod estimate; // cost and warnings of a case in advance
 mod fields; // the fields of a static contact
 mod finish; // beginning and end of every run
 mod elasto_plastic; // elasto-plastic bodies of a case
-mod given; // surfaces in memory that a case names
+mod surface_input; // surfaces in memory that a case names
 mod identity; // identity of a run, to resume it
 pub mod io; // fields in HDF5 and for ParaView, digests, locks
 mod json; // records as JSON
@@ -101,11 +101,11 @@ mod master_curve; // master curves from files of instruments
 mod viscoelastic; // viscoelastic bodies of a case
 mod limits; // the limits of the model, compared with results
 mod columns; // the dictionary of columns and numbers
-pub mod many; // many cases made from one, each in its folder
+pub mod parametric; // many cases made from one, each in its folder
 mod observe; // observers of solved contacts
 mod passes; // a motion, pass after pass
 mod prepare; // from a case to its two surfaces
-mod rest; // a static contact
+mod static_contact; // a static contact
 mod results; // the results directory
 mod review; // warnings about a result
 mod run; // from a case to its results
@@ -119,7 +119,7 @@ pub mod parts {
     pub use crate::finish::{Computed, closed_form, conclude, params};
     pub use crate::identity::{BodyData, identity_of, resolved_of};
     pub use crate::prepare::{Fit, Place, grids, hardness, topography_of};
-    pub use crate::rest::pressed;
+    pub use crate::static_contact::pressed;
     pub use crate::summary::write as write_summary;
 }
 
@@ -135,7 +135,6 @@ pub use columns::{
 };
 pub use estimate::{Demand, Estimate, demand, estimate, memory_on_device};
 pub use fields::{NamedField, RestFields};
-pub use given::SurfaceInput;
 pub use identity::resolved;
 pub use limit::{BrokenLimit, Limit};
 pub use master_curve::MasterCurve;
@@ -144,11 +143,12 @@ pub use prepare::{
     Bodies, MountedSurface, Origin, PreparedTopography, bodies, bodies_until, exact_pitch, grids, topography,
     topography_spec, topography_until,
 };
-pub use rest::{StaticResult, rest};
 pub use results::{
     Existing, Results, StepWriter, Writer, cap_name, pressure_name, temperature_name, traction_name,
 };
 pub use run::run;
+pub use static_contact::{StaticResult, static_contact};
 pub use subsurface::{Plan, SubsurfaceRecord};
 pub use summary::{Outcome, RunningIn, Summary};
+pub use surface_input::SurfaceInput;
 pub use viscoelastic::ViscoelasticEstimate;

@@ -8,7 +8,6 @@ use crate::case::{Case, CounterBody};
 use crate::elasto_plastic;
 use crate::estimate::{Estimate, estimate};
 use crate::finish::{Computed, conclude, pair, params};
-use crate::given::SurfaceInput;
 use crate::identity;
 use crate::io::lock::Lock;
 use crate::limits::Limits;
@@ -17,6 +16,7 @@ use crate::prepare::{bodies_until, fresh_heights};
 use crate::results::{Existing, StepWriter, Writer};
 use crate::review;
 use crate::summary::{Outcome, Summary};
+use crate::surface_input::SurfaceInput;
 use asperity_base::error::{Error, Result};
 use asperity_contact::motion::{
     Body, Motion, Output, Pair, PassRecord, PlasticRecord, Simulation, SolvedPass, Watch,

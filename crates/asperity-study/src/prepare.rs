@@ -10,7 +10,7 @@ use super::case::document::Document;
 use super::case::{
     Body, Case, GridMatch, Hardness, HardnessMap, Mount, Source, TopographySpec, topography_alone,
 };
-use super::given::SurfaceInput;
+use super::surface_input::SurfaceInput;
 use crate::io::{sha256, sha256_of};
 use crate::master_curve::{self, MasterCurve};
 use asperity_base::error::{Error, Result};

@@ -7,15 +7,15 @@ use web_time::Instant;
 use crate::case::Case;
 use crate::estimate::{Estimate, estimate};
 use crate::finish::{Computed, conclude, pair};
-use crate::given::SurfaceInput;
 use crate::identity;
 use crate::io::lock::Lock;
 use crate::observe;
 use crate::passes::Passes;
 use crate::prepare::bodies_until;
-use crate::rest::{self, StaticResult};
 use crate::results::{Existing, Writer};
+use crate::static_contact::{self, StaticResult};
 use crate::summary::{Outcome, Summary};
+use crate::surface_input::SurfaceInput;
 use asperity_base::error::Result;
 use asperity_contact::motion::Watch;
 
@@ -60,7 +60,7 @@ pub(super) fn run_with(
     let resolved = identity::resolved(case, &bodies);
     let pair = pair(case, bodies)?;
     let writer = Writer::enter_with(directory, &resolved, existing, lock)?;
-    let rest = rest::solve(case, pair, &estimate, Some(&writer), watch)?;
+    let rest = static_contact::solve(case, pair, &estimate, Some(&writer), watch)?;
     let Estimate { subsurface, mut warnings, .. } = estimate;
     let StaticResult {
         outcome,

@@ -47,7 +47,7 @@ pub struct Summary {
     /// was not requested.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub subsurface: Vec<SubsurfaceRecord>,
-    /// The rows of the capabilities: those of the last contact, or of a motion what tells of its passes.
+    /// The rows of the capabilities: those of the last contact or, after a motion, of its passes.
     #[serde(flatten)]
     pub found: Observations,
     /// Warnings for the user.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::solver::Device;
-use asperity::study::many::Task;
+use asperity::study::parametric::Task;
 use clap::Args;
 
 use super::values::{choice, threads};

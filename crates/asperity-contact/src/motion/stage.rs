@@ -142,7 +142,7 @@ impl Progress {
     }
 
     /// Returns the step after the next one. A cycle that ends with it stands for `represented` cycles;
-    /// `changes` tells whether the heights of the bodies change with it.
+    /// `changes` says whether the heights of the bodies change with it.
     pub(super) fn after(self, stages: &[Stage], represented: usize, changes: bool) -> Self {
         let stage = &stages[self.stage];
         if self.step < stage.steps() {

@@ -36,7 +36,6 @@
 //! ```
 
 mod anderson;
-mod below;
 mod body;
 mod contact;
 mod law;
@@ -47,12 +46,12 @@ mod influence;
 mod j2;
 mod lanes;
 mod layers;
+mod residual_stress;
 mod sweep;
 mod uncovered;
 mod volume;
 mod waves;
 
-pub use below::residual_below;
 pub use body::{Action, BodyIncrement, PlasticBody, PlasticState, SurfaceDisplacement};
 pub use contact::{PlasticContact, RelativePosition};
 pub use hardening::Hardening;
@@ -60,6 +59,7 @@ pub use increment::{Increment, Loading, PlasticParams, advance};
 pub use j2::J2;
 pub use law::{CellState, Tensor};
 pub use layers::{Layers, MAX_LAYERS};
+pub use residual_stress::residual_below;
 pub use volume::Volume;
 
 /// Components of a symmetric tensor, in the order of [`crate::stress::Component::ALL`].

@@ -75,7 +75,7 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
         0
     }
 
-    /// Returns the rows of a summary: those of the last contact, or of a motion what tells of its passes.
+    /// Returns the rows of a summary: those of the last contact or, after a motion, of its passes.
     fn summary(rows: &[Self::Row]) -> Vec<Self::Row>;
 
     /// Describes what is asked for, for `asperity check`.

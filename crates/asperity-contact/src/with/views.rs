@@ -61,11 +61,11 @@ pub struct Series<R: 'static> {
     pub is_dashed: bool,
     /// Whether it stands only beside the main curve of single contacts, such as a correlation or a share.
     pub is_beside: bool,
-    /// Its course over the mean pressure, as its name tells it.
+    /// Its course over the mean pressure, as its name says.
     pub over_pressure: OverPressure,
 }
 
-/// The part of the course of a curve over the mean pressure that its name tells.
+/// The part of the course of a curve over the mean pressure that its name says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OverPressure {
     /// Nothing.

@@ -92,7 +92,7 @@ fn random_contacts_agree_with_those_of_the_processor() {
         let approach = (found.approach - expected.approach).abs() / scale;
         assert!(error < 1e-4 && approach < 1e-6, "contact {seed}: {error:e}, {approach:e}");
         assert!(found.residual < TOLERANCE, "contact {seed}: residual {:e}", found.residual);
-        // The residual told is that of the pressure.
+        // The residual reported is that of the pressure.
         let mut operator = drawn.operators.on(drawn.grid.shape);
         let mut u = drawn.grid.zeros();
         operator.apply(&found.pressure, &mut u);

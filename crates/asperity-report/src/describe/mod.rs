@@ -205,7 +205,7 @@ impl Statistics {
     }
 }
 
-/// Whether two parameters are told in one unit: heights with heights, lengths along the surface with such.
+/// Whether two parameters are printed in one unit: heights with heights, lengths along the surface with such.
 fn is_of_one_column(one: &Parameter, other: &Parameter) -> bool {
     let along = |row: &Parameter| row.family == "spatial";
     one.unit == other.unit && along(one) == along(other)

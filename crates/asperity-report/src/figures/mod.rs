@@ -9,11 +9,11 @@ mod loading;
 mod motion;
 mod pressure;
 mod profile;
-mod rest;
 mod rolling;
 mod running;
 mod sheet;
 mod sliding;
+mod static_contact;
 mod stored;
 mod capability;
 mod subsurface;
@@ -41,10 +41,10 @@ pub(crate) use friction::stick;
 pub(crate) use loading::curves as of_loading;
 pub(crate) use plastic::{PlasticSection, of_increments as of_plastic_increments, plastic_sections};
 pub(crate) use pressure::histogram;
-pub(crate) use rest::{HeightRange, Witness, approach, open_gap, profile as profile_at_rest};
 pub(crate) use rolling::curves as of_rolling;
 pub use sheet::Sheet;
 pub(crate) use sliding::curves as of_sliding;
+pub(crate) use static_contact::{HeightRange, Witness, approach, open_gap, profile as profile_at_rest};
 pub use stored::in_frame_of;
 pub(crate) use stored::{Cap, StoredArray, ends_with_tension};
 pub(crate) use subsurface::{columns as stress_columns, contact as contact_of_section, on_section};
@@ -174,7 +174,7 @@ fn gather_on<'a>(
             let message = format!("{} has no finished pass to draw", results.directory().display());
             return Err(Error::missing(message, None));
         }
-        true => rest::draw(results, &mut sheet, witness)?,
+        true => static_contact::draw(results, &mut sheet, witness)?,
         false => motion::draw(results, &passes, &mut sheet)?,
     };
     let updates = results.updates()?;

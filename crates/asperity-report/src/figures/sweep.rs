@@ -37,7 +37,7 @@ pub(super) fn draw(points: &[SweepRecord], case: &Case, sheet: &mut Sheet) -> Re
     curves(points, case).into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))
 }
 
-/// The loads of a sweep, as subtitles tell them.
+/// The loads of a sweep, as subtitles name them.
 pub(super) fn loads_in_words(points: &[SweepRecord]) -> String {
     let [from, to] = loads(points).map(force);
     if from == to { format!("load {from}") } else { format!("load {from} to {to}") }

@@ -209,7 +209,7 @@ fn bodies_that_attract_each_other_have_their_own_figures() {
     assert_eq!((last.contact_area / 1e-18).round() as usize, count(&contact.field));
     assert!(count(&contact.field) > count(&pressure.field), "no cell in contact is under tension");
     let gap = StoredArray::read(&fields, "gap").unwrap();
-    let open = rest::open_gap(gap, &Field::zeros(touching.raw_dim()), &touching);
+    let open = static_contact::open_gap(gap, &Field::zeros(touching.raw_dim()), &touching);
     assert_eq!(count(&open.field), touching.len() - count(&touching));
     let section = profile_at_rest(&fields, &results.case().unwrap()).unwrap().unwrap();
     let points = |chart: usize| &section.charts[chart].series[0].points;

@@ -6,7 +6,7 @@ use asperity_contact::with::views::Answer;
 use asperity_contact::with::{self, Capability, Listed, answering};
 use asperity_study::Outcome;
 
-use super::found::PageData;
+use super::page_data::PageData;
 
 /// The answers, the first of which is that to the question of the case.
 pub(super) fn all(found: &PageData) -> Vec<Answer> {

@@ -10,10 +10,10 @@ use asperity_surface::{Parameter, Parameters, Topography};
 use serde_json::{Value, json};
 
 use super::curves;
-use super::found::PageData;
 use super::html::{details, escaped, minus};
-use super::packed::QuantisedField;
-use super::shown::{MAX_CELLS, ShownBody};
+use super::page_data::PageData;
+use super::quantised::QuantisedField;
+use super::shown_body::{MAX_CELLS, ShownBody};
 use crate::draw::{Charts, Unit, range_of_heights};
 use crate::error::Result;
 use crate::figures::{self, Curves, StoredArray};

@@ -8,8 +8,8 @@ use asperity_contact::with::interface_cells;
 use asperity_contact::with::views::{Answer, RowCell};
 use asperity_study::{Outcome, SubsurfaceRecord, column, dimension_of_column};
 
-use super::found::PageData;
 use super::html::{escaped, minus};
+use super::page_data::PageData;
 use super::verdict::{differ, largest_temperature, shaken_down, share_of_overlap};
 use crate::words::numbers::change;
 

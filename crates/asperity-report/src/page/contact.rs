@@ -12,10 +12,10 @@ use serde_json::{Map, Value, json};
 
 use super::bodies::has_rest;
 use super::curves;
-use super::found::PageData;
 use super::html::{escaped, minus};
 use super::layers::{Kind, LAYERS, levels_of};
-use super::packed::{self, QuantisedField};
+use super::page_data::PageData;
+use super::quantised::{self, QuantisedField};
 use super::table::evenly;
 use crate::draw::{Charts, Colours};
 use crate::error::Result;
@@ -120,7 +120,7 @@ fn section_of(profile: Option<Charts>, of: &str, charts: &mut Vec<Value>) -> Str
 
 /// That large fields are shown in blocks, and how.
 fn blocks(frames: &[Frame]) -> String {
-    let block = frames.iter().map(|frame| packed::block(frame.pressure())).max().unwrap_or(1);
+    let block = frames.iter().map(|frame| quantised::block(frame.pressure())).max().unwrap_or(1);
     in_blocks(block, frames.iter().any(Frame::pulls))
 }
 

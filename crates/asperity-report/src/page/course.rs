@@ -4,8 +4,8 @@ use asperity_contact::motion::StepRecord;
 use serde_json::{Value, json};
 
 use super::curves;
-use super::found::PageData;
 use super::html::details;
+use super::page_data::PageData;
 use crate::figures;
 
 /// The section of bodies that change over the distance that they slide; none of others.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use asperity_base::units::{Dimension, Multiple};
 use asperity_study::io::fs;
-use asperity_study::many::{Axis, Row, Table, TableColumn};
+use asperity_study::parametric::{Axis, Row, Table, TableColumn};
 use asperity_study::{column, dimension_of_column};
 use serde_json::{Value, json};
 

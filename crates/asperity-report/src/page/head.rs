@@ -1,7 +1,7 @@
 //! The head: what was computed, what came of it, what to be wary of.
 
-use super::found::PageData;
 use super::html::{escaped, minus, with_code};
+use super::page_data::PageData;
 use super::{answers, cards, verdict};
 
 /// The title of the case.

@@ -9,9 +9,9 @@ use serde_json::Value;
 
 use super::Section;
 use super::curves;
-use super::found::PageData;
 use super::html::{escaped, facts, minus};
 use super::numbers;
+use super::page_data::PageData;
 use crate::figures;
 
 /// Jumps that are listed, at most.

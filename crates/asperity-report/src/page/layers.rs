@@ -2,7 +2,7 @@
 
 use asperity_base::Grid;
 
-use super::packed::Levels;
+use super::quantised::Levels;
 use crate::draw::{Colours, Unit};
 use crate::figures::StoredArray;
 

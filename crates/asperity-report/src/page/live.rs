@@ -23,7 +23,7 @@ impl LivePage {
         Self { began: Instant::now(), spent: Duration::ZERO, last: FIRST }
     }
 
-    /// Writes the page, if it may take its time. What goes wrong now is told at the end of the run.
+    /// Writes the page, if it may take its time. Errors are reported at the end of the run.
     pub fn refresh(&mut self, results: impl FnOnce() -> asperity_base::Result<Results>) {
         if !self.is_due(self.began.elapsed()) {
             return;

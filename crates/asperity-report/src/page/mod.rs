@@ -4,7 +4,6 @@
 //! levels and curves, those of the figures. Nothing on the page asks for anything from outside.
 
 mod answers;
-mod below;
 mod bodies;
 mod cards;
 mod case;
@@ -13,7 +12,6 @@ mod course;
 mod curves;
 mod explorer;
 mod plastic;
-mod found;
 mod head;
 mod html;
 mod interface;
@@ -21,11 +19,13 @@ mod layers;
 mod live;
 mod numbers;
 mod overview;
-mod packed;
+mod page_data;
+mod quantised;
 mod capability;
 mod plane;
-mod shown;
+mod shown_body;
 mod study;
+mod subsurface;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -47,9 +47,9 @@ use serde_json::{Value, json};
 
 use crate::draw::{Colours, Paper, palette};
 use crate::figures::{self, FigureOptions};
-use found::PageData;
 pub use live::LivePage;
-use packed::QuantisedField;
+use page_data::PageData;
+use quantised::QuantisedField;
 pub use study::{answers_of_study, write_study};
 use witness::{DPI, PICTURES};
 pub use witness::{Seen, gathered};
@@ -126,7 +126,7 @@ fn page(results: &Results, seen: Option<Seen>) -> asperity_base::Result<(String,
     };
     sections.extend(beginning);
     sections.extend([
-        ("below", "Below the surface", below::section(&mut found, &mut data, &mut charts)),
+        ("below", "Below the surface", subsurface::section(&mut found, &mut data, &mut charts)),
         ("plastic", "Plastic flow", plastic::section(&mut found, &mut data, &mut charts)),
         ("bodies", "Bodies", bodies::section(&mut found, &mut data, &mut charts)),
         ("curves", "Curves", course::section(&mut found, &mut data, &mut charts)),
@@ -217,7 +217,7 @@ fn pictures(found: &PageData) -> String {
             let paper = Paper { dpi: DPI, ..Paper::default() };
             let only = PICTURES.map(str::to_owned).to_vec();
             let wanted = FigureOptions { paper, only, keep: false };
-            // What cannot be read has been told already.
+            // Unreadable files have been reported already.
             drawn = figures::pictures(found.results, &wanted).unwrap_or_default();
             &drawn
         }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use asperity_base::units::format_number_digits;
-use asperity_study::many::{Axis, Spread, Table};
+use asperity_study::parametric::{Axis, Spread, Table};
 
 use super::explorer::Quantity;
 use super::html::escaped;

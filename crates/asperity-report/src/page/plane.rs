@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::curves;
-use super::packed::QuantisedField;
+use super::quantised::QuantisedField;
 use crate::draw::Unit;
 
 /// A field in a plane, as it is shown.

@@ -6,10 +6,10 @@ use asperity_study::io::fs;
 use serde_json::{Map, Value};
 
 use super::curves;
-use super::found::PageData;
 use super::html::{escaped, number};
-use super::packed::QuantisedField;
+use super::page_data::PageData;
 use super::plane::{self, Plane, Shades};
+use super::quantised::QuantisedField;
 use super::table::text_of;
 use crate::draw::Unit;
 use crate::figures::{self, Curves, PlasticSection};

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use asperity_base::units::format_time;
 use asperity_study::io::{self, fs};
-use asperity_study::many::{Axis, Row, Study, Table};
+use asperity_study::parametric::{Axis, Row, Study, Table};
 use serde_json::json;
 
 use super::explorer::{self, Quantity, largest};
@@ -20,7 +20,7 @@ use crate::draw::{Colours, palette};
 /// Cases that have a row on the page, at most.
 const MAX_ROWS: usize = 20_000;
 
-/// Columns of a study's table that the page shows after the answers, the most telling ones first.
+/// Columns of a study's table that the page shows after the answers, the most important ones first.
 const SHOWN: [&str; 28] = [
     "contact_area",
     "mean_contact_area",

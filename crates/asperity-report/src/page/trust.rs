@@ -9,8 +9,8 @@ use asperity_study::case::{Prescribed, StageSpec};
 use asperity_study::io::fs;
 use serde_json::Value;
 
-use super::found::PageData;
 use super::html::{details, escaped, facts, number};
+use super::page_data::PageData;
 use super::{case, numbers};
 
 /// The section.

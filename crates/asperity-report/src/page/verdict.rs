@@ -5,7 +5,7 @@ use asperity_contact::motion::{PassRecord, PlasticRecord, Regime, StaticRecord, 
 use asperity_contact::with::views::Answer;
 use asperity_study::{Outcome, SubsurfaceRecord};
 
-use super::found::PageData;
+use super::page_data::PageData;
 use crate::words::closed_form;
 use crate::words::numbers::change;
 

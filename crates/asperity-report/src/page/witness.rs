@@ -5,8 +5,8 @@ use asperity_study::io::fields::Fields;
 use rayon::prelude::*;
 
 use super::layers::levels_of;
-use super::packed::{self, Levels, QuantisedField};
-use super::shown::{MAX_CELLS, ShownBody};
+use super::quantised::{self, Levels, QuantisedField};
+use super::shown_body::{MAX_CELLS, ShownBody};
 use crate::draw::{self, Charts, Paper};
 use crate::error::Result;
 use crate::figures::{self, FigureOptions, HeightRange, Sheet, StoredArray, Witness};
@@ -44,7 +44,7 @@ impl Witness for Seen {
     fn array(&mut self, name: &'static str, array: &StoredArray) {
         self.maps.extend(levels_of(name, array, false).map(|levels| (name, levels)));
         if name == "pressure" {
-            self.block = packed::block(&array.field);
+            self.block = quantised::block(&array.field);
         }
     }
 
@@ -85,7 +85,7 @@ fn seen_on<'a>(
     let mut seen = Seen::default();
     let paper = Paper { dpi: DPI, ..Paper::default() };
     let mut sheet = figures::gathered_with(results, wanted, (paper, &PICTURES), stop, (fields, &mut seen));
-    // The page tells what is wrong with a damaged file.
+    // The page reports a damaged file.
     let is_whole = sheet.is_ok() && fields.verify().is_ok();
     if let Ok(sheet) = &mut sheet {
         seen.pictures = sheet.take_pictures();

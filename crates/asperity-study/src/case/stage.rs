@@ -181,7 +181,7 @@ impl StageSpec {
 /// Loading after the stages so far.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PresentLoading {
-    /// The loading, as far as the case tells it.
+    /// The loading, as far as the case gives it.
     pub(super) loading: Loading,
     /// Whether the normal and the tangential loading have values of this kind that only the contact knows.
     pub(super) stays: [bool; 2],

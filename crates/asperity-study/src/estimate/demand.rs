@@ -3,9 +3,9 @@
 use web_time::Instant;
 
 use crate::case::{Body, Case, Course, Layer, Source};
-use crate::given::SurfaceInput;
 use crate::prepare::grids;
 use crate::subsurface::Plan;
+use crate::surface_input::SurfaceInput;
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
 use asperity_base::units::Second;

@@ -10,8 +10,8 @@ mod head;
 mod titles;
 
 use crate::case::{Body, Case};
-use crate::given::SurfaceInput;
 use crate::io::{regular, sha256};
+use crate::surface_input::SurfaceInput;
 use asperity_base::error::Result;
 use asperity_base::io::text;
 use asperity_contact::viscoelastic::MasterPoint;

@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::kept::KeptContacts;
+use super::kept_contacts::KeptContacts;
 use super::state::{ALTERED, ROWS};
 use super::{Results, has_every_position, is_nth};
 use crate::identity;

@@ -32,7 +32,7 @@
 
 mod entry; // accepted content, clearing, the lock
 mod bodies; // bodies in field files
-mod kept; // the contacts of a course whose fields are kept
+mod kept_contacts; // the contacts of a course whose fields are kept
 mod state; // state between two steps of a course
 mod step; // the output of a course, step by step
 mod write; // the output of a run

@@ -7,7 +7,7 @@
 use std::path::PathBuf;
 
 use super::bodies::{add_bodies, add_volumes, set_caps};
-use super::kept::KeptContacts;
+use super::kept_contacts::KeptContacts;
 use super::state::{self, ROWS};
 use super::write::Writer;
 use super::{Results, cap_name, pressure_name, temperature_name, traction_name};

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use asperity_base::Error;
 use asperity_base::error::CaseError;
 use asperity_study::Case;
-use asperity_study::many::Study;
+use asperity_study::parametric::Study;
 
 use crate::ball::good_cases;
 

@@ -116,8 +116,12 @@ fn a_depth_that_is_none_and_flow_that_leaves_the_volume_are_told() {
     for (shallow, told) in
         [("5 um", "'depth' is 5 µm, expected from a cell, 6 µm"), ("1 mm", "'depth' is 1 mm")]
     {
-        let error = asperity_study::rest(&case("20 N", FLOWS, &depth(shallow)), SurfaceInput::default(), &())
-            .unwrap_err();
+        let error = asperity_study::static_contact(
+            &case("20 N", FLOWS, &depth(shallow)),
+            SurfaceInput::default(),
+            &(),
+        )
+        .unwrap_err();
         assert!(error.to_string().contains(told), "{error}");
     }
     let [thin, whole] = [depth("18 um"), VOLUME.to_owned()]

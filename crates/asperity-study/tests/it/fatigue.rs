@@ -198,7 +198,7 @@ fn what_has_failed_breaks_out_and_goes_to_the_ledger() {
     let worn = state(&results, last, "wear");
     let error = most(&(before - after - worn - &pitted).mapv(f64::abs));
     assert!(error < 1e-15, "{error}");
-    // Pits are as deep as the material is tired, and no deeper than asked for but by the way to the next
+    // Pits are as deep as the material is damaged, and no deeper than asked for but by the way to the next
     // depth.
     assert!(pitted.iter().all(|depth| *depth < 20.0 * 4e-6));
     // Nothing within the depth of pits is left that has failed.

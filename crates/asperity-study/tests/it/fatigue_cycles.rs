@@ -137,7 +137,7 @@ layers = 2
 const HERTZ: HertzSphere = HertzSphere { radius: 5e-3, modulus: 100e9, load: 10.0 };
 
 #[test]
-fn partial_slip_tires_the_trailing_edges_as_cattaneo_and_mindlin_have_it() {
+fn partial_slip_fatigues_the_trailing_edges_as_cattaneo_and_mindlin_have_it() {
     let reach = 3.0;
     // Shear of the whole contact under full slip, less that of a circle, in parts.
     let shear = |load: f64, part: f64, place: [f64; 2], depth: f64| {

@@ -162,7 +162,8 @@ fn rough(body: &str, contact: &str) -> String {
 
 fn at_rest(text: &str) -> (Vec<String>, Vec<String>) {
     let log = Log::default();
-    let warnings = asperity_study::rest(&parsed(text), SurfaceInput::default(), &log).unwrap().warnings;
+    let warnings =
+        asperity_study::static_contact(&parsed(text), SurfaceInput::default(), &log).unwrap().warnings;
     (warnings, log.lines())
 }
 

@@ -36,7 +36,8 @@ pub(crate) fn run_to(case: &Case, directory: &Path, existing: Existing) -> (Summ
 /// Solves a static contact without files.
 #[track_caller]
 pub(crate) fn at_rest(case: &Case) -> StaticResult {
-    asperity_study::rest(case, SurfaceInput::default(), &()).unwrap_or_else(|error| panic!("{error}"))
+    asperity_study::static_contact(case, SurfaceInput::default(), &())
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A field of a static contact.

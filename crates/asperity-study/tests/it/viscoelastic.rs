@@ -142,7 +142,7 @@ fn the_shift_of_williams_landel_and_ferry_has_its_temperatures() {
     let body = r#", wlf_c1 = 8.86, wlf_c2 = "101.6 K", wlf_at = "50 °C""#;
     let found = |bulk: &str| {
         let steady = format!("steady = {{ speed = \"10 mm/s\" }}\ntemperature = {{ bulk = \"{bulk}\" }}");
-        asperity_study::rest(&case(&steady, body), SurfaceInput::default(), &())
+        asperity_study::static_contact(&case(&steady, body), SurfaceInput::default(), &())
             .map(|rest| rest.warnings.iter().any(|warning| warning.contains("Williams, Landel and Ferry")))
     };
     for (bulk, told) in [("50 °C", false), ("20 °C", false), ("-20 °C", true), ("200 °C", true)] {

@@ -11,7 +11,7 @@ mod increment;
 mod laws;
 pub(crate) mod lost_volumes;
 mod pass;
-mod rest;
+mod static_contact;
 mod steady;
 mod step;
 mod sweep;
@@ -25,7 +25,7 @@ pub use laws::{FrettingRecord, LawsInCycles, LawsInPass, LawsInUpdate, RunningRe
 pub use lost_volumes::LostVolume;
 pub use pass::PassRecord;
 pub use plastic::{PassPlasticRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord};
-pub use rest::{ShearRecord, StaticRecord};
+pub use static_contact::{ShearRecord, StaticRecord};
 pub use steady::SteadyRecord;
 pub use step::StepRecord;
 pub use sweep::SweepRecord;

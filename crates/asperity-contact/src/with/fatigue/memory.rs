@@ -2,7 +2,7 @@
 
 use ndarray::Axis;
 
-use super::below::{Below, Limited};
+use super::limited_bodies::{Limited, LimitedBodies};
 use super::{advance_damage, critical};
 use crate::error::Result;
 use crate::grid::Field;
@@ -15,7 +15,7 @@ const LATE: f64 = 0.05;
 
 /// The damage of two bodies: f of each load cycle, by Dang Van, and the damage that adds up, by Basquin and
 /// Miner. Both are states of a body, a field for each depth.
-pub(super) struct Damage(pub(super) Below);
+pub(super) struct Damage(pub(super) LimitedBodies);
 
 /// Names of the states of a body.
 pub(super) mod states {

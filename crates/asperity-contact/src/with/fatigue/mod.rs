@@ -36,7 +36,7 @@ mod critical;
 mod damage;
 mod history;
 mod maps;
-mod below;
+mod limited_bodies;
 mod memory;
 mod record;
 mod rules;
@@ -65,7 +65,7 @@ impl Capability for Fatigue {
     const NAME: &'static str = "fatigue";
     const TITLE: &'static str = "Fatigue";
     const MEANING: &'static str = "fatigue below the surfaces of bodies under loads that repeat";
-    const VERB: &'static str = "tires";
+    const VERB: &'static str = "fatigues";
     const OF_LOAD_CYCLES: bool = true;
 
     type Row = FatigueRecord;
@@ -86,7 +86,7 @@ impl Capability for Fatigue {
     }
 
     fn cycle_memory(&self, given: &Given<'_>) -> Result<Option<Box<dyn Memory>>> {
-        Ok(Some(Box::new(memory::Damage(below::Below::new(self, given)?))))
+        Ok(Some(Box::new(memory::Damage(limited_bodies::LimitedBodies::new(self, given)?))))
     }
 
     fn remembered(&self) -> usize {

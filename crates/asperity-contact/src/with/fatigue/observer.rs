@@ -2,7 +2,7 @@
 
 use ndarray::{Array3, Axis};
 
-use super::below::{Below, Limited};
+use super::limited_bodies::{Limited, LimitedBodies};
 use super::memory::states;
 use super::smooth::Smooth;
 use super::{Fatigue, FatigueRecord, OnBody, critical, critical_depths};
@@ -14,17 +14,17 @@ use crate::with::{BodyField, Given, NamedField, Observer, Place};
 /// Tells what the memory of a load cycle has found.
 #[derive(Debug)]
 pub struct FatigueObserver {
-    below: Below,
+    bodies: LimitedBodies,
     /// The bodies without roughness, if the risk over theirs is asked for.
     smooth: Option<Smooth>,
 }
 
 impl FatigueObserver {
     pub(super) fn new(fatigue: &Fatigue, given: &Given<'_>) -> Result<Self> {
-        let below = Below::new(fatigue, given)?;
-        let asks = below.limited().any(|(_, body)| body.risk);
+        let bodies = LimitedBodies::new(fatigue, given)?;
+        let asks = bodies.limited().any(|(_, body)| body.risk);
         let smooth = asks.then(|| Smooth::new(given)).transpose()?;
-        Ok(Self { below, smooth })
+        Ok(Self { bodies, smooth })
     }
 
     /// Returns the row and the fields of a body.
@@ -34,7 +34,7 @@ impl FatigueObserver {
         (body, grid): (&Body, Grid),
         report: &CycleReport<'_>,
     ) -> Result<(FatigueRecord, Vec<BodyField>)> {
-        let Below { fatigue, boundary, depths, .. } = &self.below;
+        let LimitedBodies { fatigue, boundary, depths, .. } = &self.bodies;
         let states = |name: fn(usize) -> String| -> Vec<&Field> {
             (0..depths.len()).map(|k| &body.state[&name(k)].values).collect()
         };
@@ -60,7 +60,7 @@ impl FatigueObserver {
         let plastic = pass.filter(|pass| pass.plastic_volumes.iter().any(|volume| volume.body == index));
         let life_ratio = match (&self.smooth, pass) {
             (Some(smooth), Some(pass)) if limited.risk => smooth.life_ratio(
-                &self.below,
+                &self.bodies,
                 (index, limited),
                 (pass.motion, &|| report.stop()),
                 &of_cycle,
@@ -118,7 +118,7 @@ impl FatigueObserver {
     fn section(&self, over_limit: &[&Field], grid: Grid, row: usize) -> (Grid, Field) {
         /// Rows of cells of a section.
         const ROWS: usize = 96;
-        let depths = &self.below.depths;
+        let depths = &self.bodies.depths;
         let step = depths[depths.len() - 1] / ROWS as f64;
         let values = Field::from_shape_fn([grid.shape[0], ROWS], |(i, k)| {
             let depth = (k as f64 + 0.5) * step;
@@ -143,12 +143,12 @@ impl Observer for FatigueObserver {
 
     fn after_cycle(&self, report: &CycleReport<'_>) -> Result<(Vec<FatigueRecord>, Vec<BodyField>)> {
         let (mut rows, mut fields) = (Vec::new(), Vec::new());
-        if !self.below.fatigue.wants(report.number) {
+        if !self.bodies.fatigue.wants(report.number) {
             return Ok((rows, fields));
         }
         let pair = report.pair;
         let bodies = [(&pair.lower, pair.lower_grid()), (&pair.upper, pair.upper_grid())];
-        for (index, limited) in self.below.limited() {
+        for (index, limited) in self.bodies.limited() {
             let (row, of_body) = self.of_body((index, limited), bodies[index], report)?;
             rows.push(row);
             fields.extend(of_body);

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use super::below::{Below, Limited};
+use super::limited_bodies::{Limited, LimitedBodies};
 use super::risk;
 use crate::error::Result;
 use crate::grid::Field;
@@ -51,7 +51,7 @@ impl Smooth {
     /// The errors of the contact of the smooth bodies; [`Error::Interrupted`](crate::Error::Interrupted).
     pub(super) fn life_ratio(
         &self,
-        below: &Below,
+        bodies: &LimitedBodies,
         (index, limited): (usize, &Limited),
         (motion, stop): (&Motion, &(dyn Fn() -> bool + Sync)),
         over_limit: &[&Field],
@@ -59,12 +59,12 @@ impl Smooth {
         let found = match self.found.get() {
             Some(found) => found,
             None => {
-                let found = self.solve(below, motion, stop)?;
+                let found = self.solve(bodies, motion, stop)?;
                 self.found.get_or_init(|| found)
             }
         };
         let Some((risks, exponent)) = found else { return Ok(None) };
-        let rough = at_risk(below, limited, over_limit);
+        let rough = at_risk(bodies, limited, over_limit);
         let ratio = (risks[index] / rough).powf(1.0 / exponent);
         Ok(Some(ratio).filter(|ratio| *ratio > 0.0 && ratio.is_finite()))
     }
@@ -72,13 +72,13 @@ impl Smooth {
     /// Solves a pass of the smooth bodies.
     fn solve(
         &self,
-        below: &Below,
+        bodies: &LimitedBodies,
         motion: &Motion,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<([f64; 2], f64)>> {
         let Control::Load(_) = motion.control else { return Ok(None) };
         let motion = Motion { passes: 1, ..*motion };
-        let simulation = Simulation::new(self.pair.clone(), below.boundary, motion, self.params)?;
+        let simulation = Simulation::new(self.pair.clone(), bodies.boundary, motion, self.params)?;
         let pass = simulation.solve(&StopsWith(stop))?;
         let widest = pass
             .steps()
@@ -94,20 +94,20 @@ impl Smooth {
         let touched = contact.pressure_field(width);
         let across = touched.columns().into_iter().filter(|row| row.iter().any(|p| *p > 0.0)).count();
         let mut risks = [0.0; 2];
-        for (index, limited) in below.limited() {
+        for (index, limited) in bodies.limited() {
             let cycle = LoadCycle::of_pass(pass.contacts(), &motion).until(stop);
-            let found = below.dang_van((index, limited), &self.pair, &cycle)?;
+            let found = bodies.dang_van((index, limited), &self.pair, &cycle)?;
             let over: Vec<Field> = found.iter().map(|at| &at.f / limited.criterion.limit()).collect();
-            risks[index] = at_risk(below, limited, &over.iter().collect::<Vec<_>>());
+            risks[index] = at_risk(bodies, limited, &over.iter().collect::<Vec<_>>());
         }
         Ok(Some((risks, if across == width { LINE } else { POINT })))
     }
 }
 
 /// Sum of the risk of all columns.
-fn at_risk(below: &Below, limited: &Limited, over_limit: &[&Field]) -> f64 {
+fn at_risk(bodies: &LimitedBodies, limited: &Limited, over_limit: &[&Field]) -> f64 {
     let limit = if limited.endurance { 1.0 } else { 0.0 };
     let Some(first) = over_limit.first() else { return 0.0 };
     let column = |cell| -> Vec<f64> { over_limit.iter().map(|over| over[cell]).collect() };
-    first.indexed_iter().map(|(cell, _)| risk(&below.depths, &column(cell), limit)).sum()
+    first.indexed_iter().map(|(cell, _)| risk(&bodies.depths, &column(cell), limit)).sum()
 }

@@ -64,7 +64,7 @@ pub struct FatigueLimits {
     /// Whether there is no damage below the limit.
     #[key(flag, default = false, example = "true")]
     pub endurance: bool,
-    /// Largest depth from which material breaks out where the damage reaches 1; 0 only tells it.
+    /// Largest depth from which material breaks out where the damage reaches 1; 0 only reports it.
     #[key(
         quantity = Length,
         range = FromZero,

@@ -13,7 +13,7 @@ pub(super) const CURVES: &[Curve<FatigueRecord>] = &[
     Curve {
         names: ["over_limit", "over_limit_bodies"],
         title: "largest f over its limit",
-        caption: "Dang Van's f at the point that tires most. Below 1 nothing fails in the end.",
+        caption: "Dang Van's f at the point that fatigues most. Below 1 nothing fails in the end.",
         column: |_| "over_limit",
         series: &[
             of_body("lower body", OnBody::Lower, |row| Some(row.over_limit)),

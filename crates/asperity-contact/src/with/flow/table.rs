@@ -46,11 +46,11 @@ pub struct Leakage {
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outlet: Option<Pascal>,
-    /// Density of a liquid, by which its leakage is also told as a mass.
+    /// Density of a liquid, by which its leakage is also given as a mass.
     #[key(quantity = Density, range = AboveZero, absent = "unknown", example = "\"870 kg/m3\"", exists = exists::DENSITY)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
-    /// Width of the face of a seal along the flow, for which the leakage of a metre of seal is told. This
+    /// Width of the face of a seal along the flow, for which the leakage of a metre of seal is given. This
     /// leakage is inversely proportional to the width.
     #[key(quantity = Length, range = AboveZero, absent = "the length of the map along the flow", example = "\"2 mm\"", exists = FACE, beside = [NARROW])]
     #[serde(skip_serializing_if = "Option::is_none")]

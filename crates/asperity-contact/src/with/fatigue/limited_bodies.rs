@@ -9,7 +9,7 @@ use crate::with::Given;
 
 /// Where fatigue is looked at, and the bodies that have limits.
 #[derive(Debug)]
-pub(super) struct Below {
+pub(super) struct LimitedBodies {
     pub(super) fatigue: Fatigue,
     pub(super) boundary: Boundary,
     /// The depths, ascending.
@@ -32,7 +32,7 @@ pub(super) struct Limited {
     pub(super) endurance: bool,
 }
 
-impl Below {
+impl LimitedBodies {
     /// Reads the limits of the bodies.
     ///
     /// # Errors
@@ -60,7 +60,7 @@ impl Below {
         self.bodies.iter().enumerate().filter_map(|(index, body)| Some((index, body.as_ref()?)))
     }
 
-    /// Computes what a body of a pair has seen in a load cycle.
+    /// Computes the fatigue criterion of a body of a pair in a load cycle, at each depth.
     ///
     /// # Errors
     /// [`Error::Interrupted`](crate::Error::Interrupted).

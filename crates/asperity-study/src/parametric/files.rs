@@ -6,10 +6,10 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::named::NamedFile;
+use super::named_file::NamedFile;
 use super::plan::Study;
-use crate::given::ExpectedContent;
 use crate::io::{atomic, regular, sha256_of_file};
+use crate::surface_input::ExpectedContent;
 use asperity_base::error::{Error, Result};
 
 /// Digests by file name.

@@ -1,4 +1,4 @@
-//! A study: many cases made from one, each in its own folder, computed by any number of processes.
+//! A parametric study: many cases made from one, each in its own folder, computed by any number of processes.
 //!
 //! ```text
 //! STUDY/study.json          identity of the study
@@ -12,23 +12,23 @@
 //! A case is done when its `summary.json` exists. Processes share only these files and their locks.
 
 mod axis; // a key of the case and its values
-mod base; // the base case
+mod base_case; // the base case
 mod compute; // computation of the remaining cases in parallel
-mod file; // the study file
 mod files; // digests of the files that it names
 mod filter; // excluded cases
 mod folder; // the directory of a study
-mod named; // a file that it names
+mod named_file; // a file that it names
 mod plan; // the values of each case
 mod points; // the points of sweeps within it
+mod queue; // the remaining cases of a process
 mod spread; // the spread over samples
+mod study_file; // the study file
 mod table; // the table of results
-mod work; // the remaining cases of a process
 
 pub use axis::Axis;
 pub use compute::compute;
 pub use folder::{Folder, State, Tally};
 pub use plan::{MAX_CASES, Study};
+pub use queue::{Computed, OwnedCase, Queue, Task};
 pub use spread::Spread;
 pub use table::{Row, Table, TableColumn};
-pub use work::{Computed, OwnedCase, Queue, Task};

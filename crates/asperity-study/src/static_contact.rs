@@ -7,13 +7,13 @@ use crate::elasto_plastic;
 use crate::estimate::{Estimate, estimate};
 use crate::fields::{NamedField, RestFields};
 use crate::finish::{closed_form, pair, params};
-use crate::given::SurfaceInput;
 use crate::limits::Limits;
 use crate::observe::{self, Observers};
 use crate::prepare::bodies_until;
 use crate::results::{BODIES, StepWriter, Writer, state_name};
 use crate::review;
 use crate::summary::Outcome;
+use crate::surface_input::SurfaceInput;
 use crate::tables;
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, check_finite};
@@ -56,7 +56,7 @@ pub struct StaticResult {
 /// # Errors
 /// Every error of a case, its surfaces or the contact; [`Error::Unsupported`] for a motion. Stress under the
 /// surface is not computed, because it is written to a file.
-pub fn rest(case: &Case, given: SurfaceInput, watch: &dyn Watch) -> Result<StaticResult> {
+pub fn static_contact(case: &Case, given: SurfaceInput, watch: &dyn Watch) -> Result<StaticResult> {
     if case.course(1.0).moves() {
         return Err(Error::Unsupported("a motion is not a static contact"));
     }

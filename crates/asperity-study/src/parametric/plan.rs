@@ -7,14 +7,14 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::axis::Axis;
-use super::file::{self, StudyFile};
-use super::named::NamedFile;
+use super::named_file::NamedFile;
+use super::study_file::{self, StudyFile};
 use crate::case::{Case, Device};
 use crate::cell::quoted;
 use crate::estimate::check_plastic_limit;
-use crate::given::SurfaceInput;
 use crate::io::sha256;
 use crate::prepare::grids;
+use crate::surface_input::SurfaceInput;
 use asperity_base::error::{CaseError, Error, Result};
 
 /// Largest number of cases of a study, before exclusions.
@@ -39,7 +39,7 @@ impl Study {
     /// [`Error::File`] if a file cannot be read, [`Error::Case`] if the study, its table or its base has a
     /// mistake.
     pub fn load(path: &Path) -> Result<Self> {
-        Self::of(file::load(path)?)
+        Self::of(study_file::load(path)?)
     }
 
     /// Makes a study from the text of a study file. `path` is its name in errors; paths of files are relative
@@ -48,7 +48,7 @@ impl Study {
     /// # Errors
     /// The errors of [`Study::load`].
     pub fn parse(text: &str, path: &Path) -> Result<Self> {
-        Self::of(file::read(text, path)?)
+        Self::of(study_file::read(text, path)?)
     }
 
     fn of(file: StudyFile) -> Result<Self> {

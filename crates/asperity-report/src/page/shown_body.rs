@@ -2,7 +2,7 @@
 
 use asperity_base::Grid;
 
-use super::packed::{self, Levels, QuantisedField};
+use super::quantised::{self, Levels, QuantisedField};
 use crate::figures::{HeightRange, StoredArray};
 
 /// Bodies of more cells have no parameters on the page: those of hills and of the autocorrelation would take
@@ -35,7 +35,7 @@ impl ShownBody {
             grid: body.grid,
             range,
             remark,
-            block: packed::block(&body.field),
+            block: quantised::block(&body.field),
             has_missing: body.field.iter().any(|z| !z.is_finite()),
         }
     }

@@ -7,10 +7,10 @@ use std::thread;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::work::{Computed, Queue};
+use super::queue::{Computed, Queue};
 use crate::case::Case;
 use crate::estimate::demand;
-use crate::given::SurfaceInput;
+use crate::surface_input::SurfaceInput;
 use asperity_base::error::{Error, Result};
 use asperity_contact::motion::{Progress, Watch};
 

@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 use toml::Value;
 
 use super::axis::Axis;
-use super::named::NamedFile;
+use super::named_file::NamedFile;
 use crate::case::Device;
 use crate::case::document::{Document, join};
 use crate::io::{fs, sha256};

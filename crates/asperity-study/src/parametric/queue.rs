@@ -13,11 +13,11 @@ use super::files::Files;
 use super::folder::{FailedCase, Folder};
 use super::plan::Study;
 use crate::case::Case;
-use crate::given::SurfaceInput;
 use crate::io::lock::Lock;
 use crate::io::{atomic, fs, regular};
 use crate::results::{CASE_FILE, Existing, try_acquire};
 use crate::run::run_with;
+use crate::surface_input::SurfaceInput;
 use asperity_base::error::{Error, Result};
 use asperity_contact::motion::Watch;
 

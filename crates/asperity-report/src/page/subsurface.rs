@@ -6,10 +6,10 @@ use asperity_study::io::fs;
 use serde_json::Value;
 
 use super::curves;
-use super::found::PageData;
 use super::html::{escaped, facts};
-use super::packed::QuantisedField;
+use super::page_data::PageData;
 use super::plane::{self, Plane, Shades};
+use super::quantised::QuantisedField;
 use crate::draw::Unit;
 use crate::error::{Error, Result};
 use crate::figures;

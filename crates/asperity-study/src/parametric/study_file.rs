@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use toml::Value;
 
 use super::axis::{Axis, ValueInFile, axes};
-use super::base::Base;
+use super::base_case::Base;
 use super::filter::Exclusion;
 use crate::case::MAX_CASE_BYTES;
 use crate::case::cursor::{Entry, Table};

@@ -8,8 +8,8 @@ use asperity_study::io::fs;
 use asperity_study::{Case, Results, Summary};
 use serde_json::Value;
 
-use super::packed::QuantisedField;
-use super::shown::ShownBody;
+use super::quantised::QuantisedField;
+use super::shown_body::ShownBody;
 use super::table::Table;
 use super::witness::{Prepared, Seen};
 use crate::draw::Charts;
