@@ -515,7 +515,7 @@ mod tests {
     }
 
     #[test]
-    fn a_digest_is_that_of_the_rows_however_often_they_are_read_and_whatever_columns_they_gain() {
+    fn a_digest_of_rows_stays_when_they_are_read_again_or_gain_columns() {
         let directory = tempfile::tempdir().unwrap();
         let path = |name: &str| directory.path().join(name);
         let passes =

@@ -346,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn a_load_that_is_known_too_roughly_for_the_tolerance_is_met_as_nearly_as_it_is_known() {
+    fn a_load_known_too_roughly_for_the_tolerance_is_met_as_nearly_as_it_is_known() {
         // The load has an error of a part of the residual that varies from approach to approach.
         let uncertain = |delta: f64| 5e-5 * (1e15 * delta).sin();
         let trial = |delta: f64, _| Ok((delta.powf(1.5) * (1.0 + uncertain(delta)), ()));

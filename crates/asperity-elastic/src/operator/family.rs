@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn positions_may_ask_for_an_operator_while_its_coefficients_are_computed_in_parallel() {
+    fn positions_may_ask_for_an_operator_while_its_coefficients_are_computed() {
         for boundary in [Boundary::FREE, Boundary::PERIODIC] {
             let (done, is_done) = mpsc::channel();
             thread::spawn(move || {

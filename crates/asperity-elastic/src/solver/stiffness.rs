@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_gives_where_a_whole_period_is_elastic_and_nothing_resists_where_no_cell_is() {
+    fn a_whole_elastic_period_has_no_compliance_and_no_elastic_cell_no_stiffness() {
         let grid = Grid::new([8, 9], [1.0, 1.0]).unwrap();
         let all = Array2::from_elem(grid.shape, true);
         let mut periodic = PeriodicFft::new(grid, 1.0);

@@ -76,7 +76,7 @@ fn largest_difference(a: &Field, b: &Field) -> f64 {
 }
 
 #[test]
-fn every_method_keeps_each_cell_in_its_own_bounds_and_agrees_with_a_cell_by_cell_iteration() {
+fn every_method_keeps_each_cell_in_its_bounds_and_agrees_with_gauss_seidel() {
     let mut rng = ChaCha8Rng::seed_from_u64(21);
     let (mut capped, mut attracted) = (0, 0);
     for n in 0..60 {

@@ -782,7 +782,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mean_load_of_a_pass_is_bounded_by_the_mean_overlap_and_a_steady_one_by_the_least() {
+    fn the_mean_overlap_bounds_the_mean_load_of_a_pass_and_the_least_a_steady_one() {
         let estimate = |control: &str, load: &str| {
             let case = case(&format!("[motion]\ncontrol = \"{control}\""), load);
             super::estimate(&case, &bodies(&case, crate::SurfaceInput::default()).unwrap())

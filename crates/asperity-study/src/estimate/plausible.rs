@@ -216,7 +216,7 @@ mod tests {
 
     /// The slip of the trade: a dimensionless number where 1/Pa is meant.
     #[test]
-    fn wear_numbers_friction_adhesion_and_thermal_constants_are_held_against_what_exists() {
+    fn wear_friction_adhesion_and_thermal_constants_are_compared_with_what_exists() {
         let said =
             |path: &str, text: &str| super::unheard_of(&GivenValue::of(path, text.to_owned()).unwrap());
         for (path, text, words) in [

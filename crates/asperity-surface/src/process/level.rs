@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn a_polynomial_of_any_order_is_removed_to_round_off_by_that_order_and_not_by_the_one_below() {
+    fn a_polynomial_is_removed_to_round_off_by_its_order_and_not_by_the_one_below() {
         for order in 1..=Level::MAX_ORDER {
             let n = order as i32;
             // x and y from −1 to 1, all terms of the highest degree.

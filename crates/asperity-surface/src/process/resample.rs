@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn of_a_wave_too_short_for_the_new_cells_no_more_is_folded_down_than_its_average_over_a_cell() {
+    fn a_wave_too_short_for_the_new_cells_aliases_by_at_most_its_average_over_a_cell() {
         for long in [7.3, 9.1, 11.3] {
             let grid = Grid::new([960, 2], [1.0, 1.0]).unwrap();
             let wave = |x: f64| (std::f64::consts::TAU * x / long).sin();

@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn height_volume_and_curvature_of_an_egg_box_tend_to_their_integrals_at_second_order() {
+    fn height_volume_and_curvature_of_an_egg_box_converge_at_second_order() {
         let errors = |n: usize| {
             let hill = egg_box(n, 3).hills(WOLF_PRUNING).unwrap().motifs[4];
             let k = TAU / n as f64;
@@ -392,7 +392,7 @@ mod tests {
     }
 
     #[test]
-    fn each_sample_belongs_to_one_hill_whose_peak_is_its_highest_and_rises_above_the_threshold() {
+    fn each_sample_is_in_one_hill_whose_peak_is_highest_and_above_the_threshold() {
         arbtest::arbtest(|u| {
             let shape = [u.int_in_range(1..=7)?, u.int_in_range(1..=6)?];
             let mut heights = Field::zeros(shape);

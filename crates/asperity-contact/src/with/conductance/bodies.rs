@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn a_layer_on_a_body_without_resistance_has_its_own_and_a_good_one_on_a_bad_body_spreads() {
+    fn a_layer_on_a_perfect_conductor_resists_alone_and_one_on_a_bad_one_spreads() {
         let t = 1e-3;
         assert_relative_eq!(harmonic(f64::INFINITY, t, 4.0, 1e-3), t / 4.0, max_relative = 1e-10);
         // tanh(qt)/κ₁q on an isothermal base, coth(qt)/κ₁q on an insulating one.

@@ -316,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_conducts_without_contact_and_nothing_resists_where_all_of_a_period_touches() {
+    fn no_contact_conducts_nothing_and_full_periodic_contact_has_no_resistance() {
         for shape in [[1, 1], [1, 7], [6, 1], [5, 4]] {
             let grid = Grid::new(shape, [1.0, 0.5]).unwrap();
             let all = Array2::from_elem(shape, true);

@@ -78,7 +78,7 @@ fn big(class: u8, flags: u8, storage: u32, data: &[u8], sizes: [u32; 2]) -> Vec<
 }
 
 #[test]
-fn numbers_of_a_mat_may_be_stored_narrower_than_their_class_and_in_either_byte_order() {
+fn numbers_of_a_mat_may_be_narrower_than_their_class_and_in_either_byte_order() {
     let expected = ndarray::array![[1.0, 3.0], [2.0, 4.0]];
     for (storage, data) in [(2, vec![1, 2, 3, 4]), (4, vec![0, 1, 0, 2, 0, 3, 0, 4])] {
         assert_same(&decode(&big(6, 0, storage, &data, [2, 2]), Some("h")).unwrap().heights, &expected);

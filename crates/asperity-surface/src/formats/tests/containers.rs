@@ -498,7 +498,7 @@ fn fringes_of_a_datx_are_half_wavelengths_in_lines_along_x() {
 }
 
 #[test]
-fn a_datx_has_its_numbers_beside_the_heights_or_among_the_attributes_of_the_measurement() {
+fn a_datx_has_its_numbers_beside_the_heights_or_in_the_measurement_attributes() {
     let factor = |unit: &str, beside: &[(&str, f64)], among: &[(&str, f64)]| {
         let mut file = FileBuilder::new();
         let mut group = file.create_group("Measurement");

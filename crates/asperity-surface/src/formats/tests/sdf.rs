@@ -66,7 +66,7 @@ fn between_1_and_3(version: &[u8; 7], kind: u8, marker: f64) -> f64 {
 }
 
 #[test]
-fn the_smallest_number_of_an_iso_sdf_and_the_largest_of_a_bcr_sdf_is_a_missing_height() {
+fn the_least_number_of_an_iso_sdf_and_the_largest_of_a_bcr_sdf_are_missing() {
     for (kind, [smallest, largest]) in (0..).zip(LIMITS) {
         assert!(between_1_and_3(b"ISO-1.0", kind, smallest).is_nan(), "{kind}");
         assert!(between_1_and_3(b"BCR-1.0", kind, largest).is_nan(), "{kind}");

@@ -16,7 +16,7 @@ fn scan(text: &str, options: &ReadOptions) -> Result<Scan> {
 }
 
 #[test]
-fn a_line_of_text_lies_along_x_and_of_an_array_along_y_unless_the_options_say_otherwise() {
+fn by_default_a_line_of_text_lies_along_x_and_one_of_an_array_along_y() {
     let text = "1 2 3\n4 - 6\n";
     let npy: Vec<u8> =
         [1.0, 2.0, 3.0, 4.0, f64::NAN, 6.0].iter().flat_map(|z: &f64| z.to_le_bytes()).collect();
