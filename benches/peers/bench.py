@@ -114,9 +114,9 @@ class Table:
     """Rows as Markdown, and as lines of JSON where a file is given."""
 
     parameters = ()
-    """Heads of what `case_cells` tells of a case."""
+    """Heads of the columns of `case_cells`."""
     findings = ()
-    """Heads of what `run_cells` tells of a run beside its cost."""
+    """Heads of the columns of `run_cells`, beside its cost."""
 
     def __init__(self, about, path):
         self.about, self.path = about, path

@@ -21,7 +21,7 @@ import surfalize
 
 FILES = ("al3d-1.al3d", "metropro-1.dat", "x3p-2.x3p")
 UM = 1e-6
-# Parameters of hills and dales: surfalize leaves out those at the edge unless told.
+# Parameters of hills and dales: by default surfalize leaves out those at the edge.
 FEATURES = ("S5p", "S5v", "S10z", "Spd", "Svd", "Spc", "Svc")
 # Of each parameter: the unit of surfalize in SI, where it has the parameter.
 SURFALIZE = {

@@ -1,4 +1,4 @@
-"""How a program is told its task and tells its answer: the command line of the example `solve_gap`.
+"""How a program gets its task and returns its answer: the command line of the example `solve_gap`.
 
     run_PEER.py gap.npy mean=0.01 tolerance=1e-8 pressure=out.npy [boundary=free] [hardness=inf] [approach=0] ...
 

@@ -1,4 +1,4 @@
-"""Runs `press` of one file under `same/` in the interpreter that has its program, and tells how long it took.
+"""Runs `press` of one file under `same/` in the interpreter that has its program, and prints how long it took.
 
     same_run.py FILE heights.npy SIDE MEAN_PRESSURE TOLERANCE pressure.npy
 

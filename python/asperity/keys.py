@@ -347,7 +347,7 @@ class FatigueLimits(_RequiredFatigueLimits, total=False):
     endurance : bool
         Whether there is no damage below the limit. By default `false`.
     pit_depth : float or str
-        Largest depth from which material breaks out where the damage reaches 1; 0 only tells it; length ≥ 0. By default
+        Largest depth from which material breaks out where the damage reaches 1; 0 only reports it; length ≥ 0. By default
         `"0 um"`.
     risk : bool
         Whether the life is compared to that of the bodies without their roughness. By default `false`.
@@ -426,9 +426,9 @@ class Flow(_RequiredFlow, total=False):
         Absolute pressure of a gas at the outlet, to which its leakage refers; pressure > 0. Without it: with a gas:
         must be given.
     density : float or str
-        Density of a liquid, by which its leakage is also told as a mass; density > 0. Without it: unknown.
+        Density of a liquid, by which its leakage is also given as a mass; density > 0. Without it: unknown.
     width : float or str
-        Width of the face of a seal along the flow, for which the leakage of a metre of seal is told. This leakage is
+        Width of the face of a seal along the flow, for which the leakage of a metre of seal is given. This leakage is
         inversely proportional to the width; length > 0. Without it: the length of the map along the flow.
     every : int
         Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed; 0: once a

@@ -1,4 +1,4 @@
-"""Exceptions: one for each cause that the library tells."""
+"""Exceptions: one for each cause that the library reports."""
 
 from __future__ import annotations
 

@@ -254,7 +254,7 @@ def test_passes_are_not_proposed_for_a_course_without_them(opened, name):
 def watched_passes(page):
     """Watches the numbers of the passes that are computed: a function that waits for one, and returns all so far.
 
-    A continued run first tells the passes that it does not compute again; these do not count.
+    A continued run first reports the passes that it does not compute again; these do not count.
     """
     page.tab.evaluate(
         """() => { const text = document.getElementById("motion-progress"); const seen = window.seen = []; text.lastChild.textContent = "";

@@ -187,7 +187,7 @@ fn render(failure: &Failure, program: Program, renderer: &Renderer) -> String {
             directory.display()
         )),
         Failure::StudyInterrupted => Some("the same command goes on".to_owned()),
-        Failure::Cases { .. } => Some("`--list` tells why, `--retry` computes them again".to_owned()),
+        Failure::Cases { .. } => Some("`--list` says why, `--retry` computes them again".to_owned()),
         Failure::Figure(_) | Failure::Checks { .. } | Failure::Stdout(_) => None,
         Failure::Usage { hint, .. } => hint.clone(),
     };

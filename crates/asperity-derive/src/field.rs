@@ -192,7 +192,7 @@ impl<'a> Field<'a> {
             (None, None) if self.is_optional => {
                 return Err(Error::new_spanned(
                     &self.name,
-                    "an optional key tells what holds without it: `absent`",
+                    "an optional key needs `absent`: what holds without it",
                 ));
             }
             (None, None) => quote!(Required),
@@ -328,9 +328,9 @@ impl<'a> Field<'a> {
             (Accepts::Quantity(_), Some(form)) => quote!(Other { dimension: None, value: #form }),
             (Accepts::Number(_) | Accepts::Quantity(_), _) => return Ok(self.number()),
             (Accepts::Special(_), form) => {
-                let form = form.as_ref().ok_or_else(|| {
-                    Error::new_spanned(&self.name, "a special value tells its form: `form`")
-                })?;
+                let form = form
+                    .as_ref()
+                    .ok_or_else(|| Error::new_spanned(&self.name, "a special value needs its `form`"))?;
                 let dimension = match &self.dimension {
                     Some(dimension) => quote!(Some(::asperity_base::units::Dimension::#dimension)),
                     None => quote!(None),

@@ -52,7 +52,7 @@ fn group(input: &DeriveInput, attribute: &Attribute) -> Result<TokenStream> {
 fn one_of(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result<TokenStream> {
     let hint =
         need(input, attribute.hint.as_ref(), "one of several keys needs a `hint` for none and for two")?;
-    let absent = need(input, attribute.absent.as_ref(), "one of several keys tells so: `absent`")?;
+    let absent = need(input, attribute.absent.as_ref(), "one of several keys needs `absent`")?;
     let fields = data.variants.iter().map(|variant| single(variant, absent)).collect::<Result<Vec<_>>>()?;
     let declarations = declarations(&fields)?;
     let keys = keys(&fields, &quote!(KEYS));

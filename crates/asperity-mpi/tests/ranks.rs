@@ -183,7 +183,7 @@ fn what_cannot_be_computed_is_refused_at_its_place() {
         let found = output(4, &["run", "case.toml"], folder.path());
         let stderr = text(&found.stderr);
         assert!(found.status.code() == Some(2) && stderr.contains(&expected), "{expected}: {stderr}");
-        assert_eq!(stderr.matches("error: ").count(), 1, "one rank tells: {stderr}");
+        assert_eq!(stderr.matches("error: ").count(), 1, "one rank reports: {stderr}");
         assert!(!folder.path().join("case-results").join("case.json").exists());
     }
 }

@@ -92,7 +92,7 @@ fn compute(
     if writing.open { show(&directory.join(page::FILE)) } else { Ok(()) }
 }
 
-/// Time of a run from which on it is told, s.
+/// Least time of a run that is printed, s.
 const LONG: f64 = 60.0;
 
 /// Prints what was done to the surfaces, a line for each, and how long a long run takes.

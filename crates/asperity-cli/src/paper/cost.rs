@@ -194,7 +194,7 @@ impl Costs {
         let series = |work: Work, strategy: usize, name: &str| {
             let costs = self.0.iter().filter(|cost| cost.work == work);
             let points = costs.map(|cost| [cost.side as f64, cost.time(strategy)]).collect();
-            // The colour tells the method, the line the strategy.
+            // The colour stands for the method, the line for the strategy.
             let mark = if strategy == 0 { Mark::LineAndPoints } else { Mark::DashedAndPoints };
             Series::new(format!("{}, {name}", work.name()), points, mark)
         };

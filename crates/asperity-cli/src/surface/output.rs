@@ -23,7 +23,7 @@ impl Output {
         let format = Format::from_path(path);
         let is_picture = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
         if format.is_none() && !is_picture {
-            let hint = "the end of its name tells the format: .npy, .x3p, .sdf, .gwy, .vtk or .png";
+            let hint = "the end of its name gives the format: .npy, .x3p, .sdf, .gwy, .vtk or .png";
             return Err(Failure::usage(format!("no format to write `{}` in", path.display()), Some(hint)));
         }
         if path.exists() && !overwrite {

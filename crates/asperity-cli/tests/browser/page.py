@@ -448,7 +448,7 @@ def keys_reach_the_cases(tab):
 
 
 def clicks_sort_and_open(tab, table):
-    """A click on a head sorts, a second one turns the order round; a click on a row tells of its case."""
+    """A click on a head sorts, a second one turns the order round; a click on a row describes its case."""
     cases = lambda: [cell.inner_text() for cell in tab.locator("#cases tbody tr th").all()]
     before = cases()
     head = tab.locator("#cases thead button").first

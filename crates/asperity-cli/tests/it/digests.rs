@@ -543,7 +543,7 @@ fn a_digest_tells_what_changed() {
         differences([[1.0, 2.0, 3.0, 4.0], [0.0, 3e-9, 0.0, 0.0]]),
         ["steps.csv force_y is off by 1.1e-9 of its rms"]
     );
-    assert_eq!(differences([[2.0, 1.0, 3.0, 4.0], [0.0; 4]]).len(), 1, "exchanged values are told");
+    assert_eq!(differences([[2.0, 1.0, 3.0, 4.0], [0.0; 4]]).len(), 1, "exchanged values are reported");
     assert_eq!(kept, serde_json::from_str(&written(&kept)).unwrap());
     assert_eq!(differing(&kept, &digest(&SeriesByName::new()), 1.0).len(), 2);
 }

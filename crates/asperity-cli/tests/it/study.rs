@@ -287,7 +287,7 @@ fn a_case_that_fails_has_a_row_with_its_message_and_is_done_until_it_is_retried(
     let told = "load 1.2 N exceeds the plastic limit 1.024 N";
     let foreseen = format!("case 0002 will fail, and 1 more case: {told}");
     assert_has(said.lines().next().unwrap_or_default(), &foreseen);
-    assert_has(&said, &format!("case 0002: {told} … error: 2 of 3 cases failed\nhint: `--list` tells why"));
+    assert_has(&said, &format!("case 0002: {told} … error: 2 of 3 cases failed\nhint: `--list` says why"));
     let rows = table(&path("load/table.csv"));
     assert_eq!(states(&rows), ["done", "failed", "failed"]);
     assert!(rows[1]["message"].contains(told) && rows[1]["contact_area"].is_empty());
@@ -453,7 +453,7 @@ fn a_case_that_another_process_computes_is_left_to_it() {
     let path = |name: &str| folder.path().join("load").join(name);
     let mut first = spawn(&folder, "study load.toml --threads 1");
     wait_for(&mut first, &path("cases/0001/passes.csv"));
-    // An incomplete result is told of whoever asks for quiet.
+    // An incomplete result is reported even with --quiet.
     for quiet in ["", " --quiet"] {
         let output = asperity(&folder, &format!("study load.toml --threads 1{quiet}"));
         ok(&output);

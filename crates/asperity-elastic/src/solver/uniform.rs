@@ -65,7 +65,7 @@ pub fn displace_uniformly(
     let preconditioner = CellPreconditioner::new(operator, cells, &own);
     let mut gradients = Gradients::preconditioned_by(&grid, cells, preconditioner);
     let mut compliant = Compliant::new(&mut *operator, own)?;
-    // A traction that is uniform over a period displaces it by D alone: no wave tells how large it is.
+    // A traction that is uniform over a period displaces it by D alone: no wave shows how large it is.
     let uniform = (compliant.boundary().leaves_mean_free() && all && least > 0.0).then(|| grid.zeros() + 1.0);
     if let Some(start) = start.or(uniform.as_ref()) {
         gradients.begin(&mut compliant, start);

@@ -34,7 +34,7 @@ class Explorer {
     this.over = study.axes.filter((axis) => axis.numbers && axis.numbers.length > 1);
     if (!this.over.length) this.over = study.axes.filter((axis) => axis.numbers);
     this.quantities = study.quantities;
-    // The axis with the most numbers tells most.
+    // The axis with the most numbers lies along x.
     const most = this.over.reduce((best, axis, k) => (axis.numbers.length > this.over[best].numbers.length ? k : best), 0);
     this.chosen = { y: 0, x: most };
     const choice = (label, name, options) => {

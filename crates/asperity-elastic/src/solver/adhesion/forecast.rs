@@ -31,7 +31,7 @@ pub(super) struct Forecast {
 }
 
 impl Forecast {
-    /// Whether the rounds converge towards an equilibrium with this gap, as far as the last change tells.
+    /// Whether the rounds converge towards an equilibrium with this gap, as far as the last change shows.
     pub(super) fn leads_to(&self, gap: &Field) -> bool {
         let [deviation, times] = self.way_to(gap);
         deviation < MAX_DEVIATION && times > 0.0 && times <= MAX_LENGTH * self.share
