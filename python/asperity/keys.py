@@ -347,8 +347,8 @@ class FatigueLimits(_RequiredFatigueLimits, total=False):
     endurance : bool
         Whether there is no damage below the limit. By default `false`.
     pit_depth : float or str
-        Largest depth from which material breaks out where the damage reaches 1; 0 only reports it; length ≥ 0. By default
-        `"0 um"`.
+        Largest depth from which material breaks out where the damage reaches 1; 0 only reports it; length ≥ 0. By
+        default `"0 um"`.
     risk : bool
         Whether the life is compared to that of the bodies without their roughness. By default `false`.
     """

@@ -48,11 +48,11 @@
 //!
 //! **Foreign files.** Only regular files are read (`io::regular`), because a pipe or a device has no end.
 //!
-//! **Studies.** Several processes may share the cases of a study (`study::parametric`). They communicate only by
-//! files and locks. A case is finished if its `summary.json` or its `failed.json` exists. A process takes a
-//! case by the lock of its results directory, checks again whether it is finished, and computes it under that
-//! lock. The plan holds the digests of the files that the study names (`files.rs`). A case passes them to
-//! `study::bodies` with its `SurfaceInput`, which compares them with the files read.
+//! **Studies.** Several processes may share the cases of a study (`study::parametric`). They communicate only
+//! by files and locks. A case is finished if its `summary.json` or its `failed.json` exists. A process takes
+//! a case by the lock of its results directory, checks again whether it is finished, and computes it under
+//! that lock. The plan holds the digests of the files that the study names (`files.rs`). A case passes them
+//! to `study::bodies` with its `SurfaceInput`, which compares them with the files read.
 //!
 //! **Identity.** `case.json` holds the SHA-256 of each surface file and an identity: the digest of all data
 //! that decide the numbers (`study::identity`). The title, the number of passes and the folder of a file are

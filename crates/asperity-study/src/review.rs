@@ -41,7 +41,8 @@ pub(super) fn scar(before: &Pair, after: &Pair, boundary: Boundary) -> Option<St
     let free = [0, 1].into_iter().filter(|axis| !boundary.repeats(*axis));
     let (axis, rim) = free.map(|axis| (axis, at_rim(axis))).max_by(|one, other| one.1.total_cmp(&other.1))?;
     let is_cut_off = rim > SHALLOW * most;
-    (is_cut_off && Paraboloid::fit(&before.initial_gap(&before.at_rest()), before.pitch()).is_some()).then(|| {
+    let is_curved = || Paraboloid::fit(&before.initial_gap(&before.at_rest()), before.pitch()).is_some();
+    (is_cut_off && is_curved()).then(|| {
         format!(
             "the scar reaches the rim of the grid along {}: the outermost cells have lost {}, the deepest {}, and what is worn beyond the \
              grid is missing; take a larger `shape`, or let the bodies slide less far",

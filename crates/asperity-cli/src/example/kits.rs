@@ -42,7 +42,7 @@ pub(crate) const KITS: [ExampleFiles; 14] = [
     },
     ExampleFiles {
         name: "micropitting",
-        about: "fatigue of two ground surfaces: f over its limit by Dang Van, and the wear that would be faster",
+        about: "fatigue of two ground surfaces: f over its limit by Dang Van, and which wear is faster",
         files: &[("case.toml", include_bytes!("../../examples/micropitting/case.toml"))],
     },
     ExampleFiles {
