@@ -1,14 +1,15 @@
 //! The film of an oil between two bodies.
 
-use super::flow::Flow;
+use super::flow::{Flow, OilStep};
 use super::near::Near;
-use super::newton::{Newton, Reached, Scales, State};
+use super::newton::{Newton, Reached};
 use super::oil::Oil;
+use super::state::{Scales, State};
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::{Field, Grid, check_finite, flat};
 use crate::operator::{Boundary, Operator};
 use crate::solver::Control;
-use crate::units::{Dimension, Metre, Pascal, Second};
+use crate::units::{Dimension, Metre, Pascal};
 
 /// Unit of film in the residuals, in boundary films.
 const LENGTH: f64 = 50.0;
@@ -41,15 +42,6 @@ pub struct FilmProblem<'a> {
     pub ends: [Pascal; 2],
     /// A step of time; none for a steady film.
     pub step: Option<OilStep<'a>>,
-}
-
-/// A backward step of time.
-#[derive(Debug, Clone, Copy)]
-pub struct OilStep<'a> {
-    /// Oil in each cell before the step, ρh(1 − θ)/ρ₀, m: [`FilmSolution::oil`].
-    pub before: &'a [f64],
-    /// Duration of the step, > 0.
-    pub duration: Second,
 }
 
 /// When the solution of a [`FilmProblem`] ends.

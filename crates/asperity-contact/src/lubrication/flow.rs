@@ -4,9 +4,10 @@
 //! pressure, with the logarithmic mean of m = ρh³/12η of both cells, which is exact where η rises exponentially
 //! with pressure. All quantities are divided by the density at ambient pressure.
 
-use super::{Oil, OilStep};
+use super::oil::Oil;
 use crate::grid::Grid;
 use crate::math::parallel;
+use crate::units::Second;
 
 /// Cells that the balance of a cell depends on: itself, upstream, downstream, before and after it along y, and
 /// two upstream.
@@ -18,6 +19,15 @@ const DOWNSTREAM: usize = 2;
 const BEFORE: usize = 3;
 const AFTER: usize = 4;
 pub(super) const SECOND_UPSTREAM: usize = 5;
+
+/// A backward step of time.
+#[derive(Debug, Clone, Copy)]
+pub struct OilStep<'a> {
+    /// Oil in each cell before the step, ρh(1 − θ)/ρ₀, m: [`FilmSolution::oil`](super::FilmSolution::oil).
+    pub before: &'a [f64],
+    /// Duration of the step, > 0.
+    pub duration: Second,
+}
 
 /// The flow of an oil through a gap. It moves along +x.
 pub(super) struct Flow<'a> {

@@ -3,7 +3,7 @@
 
 use super::flow::{Balance, OFFSETS, SECOND_UPSTREAM, UPSTREAM};
 use super::fronts::{Factor, Matrix};
-use super::newton::{Scales, Sides};
+use super::state::{Scales, Sides};
 use crate::operator::Operator;
 
 /// Cells along x and y up to which a cell is joined to others.

@@ -23,7 +23,7 @@ pub enum ViscosityLaw {
 ///
 /// let oil = Oil::new(0.04, 20e-9)?;
 /// let thick = oil.under(1e9);
-/// assert!((thick.viscosity / 4.65e3 - 1.0).abs() < 0.01, "{}", thick.viscosity);
+/// assert!((thick.viscosity / 1.62e4 - 1.0).abs() < 0.01, "{}", thick.viscosity);
 /// assert!((thick.density - 1.214).abs() < 1e-3);
 /// let barus = Oil { law: ViscosityLaw::Barus, ..oil };
 /// assert!((barus.under(0.1e9).viscosity / (0.04 * 2.0_f64.exp()) - 1.0).abs() < 1e-12);

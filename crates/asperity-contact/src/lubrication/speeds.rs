@@ -1,9 +1,16 @@
 //! Films at one speed after another.
 
-use super::film::{Film, FilmParams, FilmProblem, FilmSolution, OilStep, solve_film};
+use std::borrow::Cow;
+
+use super::film::{Film, FilmParams, FilmProblem, FilmSolution, solve_film};
+use super::flow::OilStep;
 use crate::error::{Error, Result};
+use crate::grid::{Field, Grid, coarse_means};
 use crate::operator::Operator;
 use crate::solver::{Bounds, Control, Params, solve_normal};
+
+/// Fewest cells along the shorter side of a grid whose films are solved for on half as many first.
+const HALVED: usize = 32;
 
 /// Largest ratio of two speeds at which one solution is tried as the start of the other.
 const NEAR: f64 = 10.0;
@@ -19,14 +26,34 @@ const THICKNESSES: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 
 /// The films of two bodies at the speeds of a Stribeck curve, in any order.
 ///
-/// A film starts from the one at the nearest speed. Where there is none, or if it fails, it starts from the dry
-/// contact or from a full film under its pressure, whichever leaves less residual, then from the other one. At last the film is followed in time
-/// from the dry contact.
+/// Each film is solved for on half as many cells along both axes first. It starts from that film or from the one at
+/// the nearest speed, without them from the dry contact or from a full film under its pressure: from the one that
+/// leaves less residual, and if that fails from the others. At last the film is followed in time.
 pub struct FilmSpeeds<'a> {
+    /// The problem on the finest grid.
     problem: FilmProblem<'a>,
     params: FilmParams,
+    gap: Cow<'a, Field>,
     dry: Film,
     solved: Vec<(f64, Film)>,
+    half: Option<Box<Half<'a>>>,
+}
+
+/// The same films on half as many cells.
+struct Half<'a> {
+    operator: Box<dyn Operator>,
+    films: FilmSpeeds<'a>,
+}
+
+/// The film at a speed.
+#[derive(Debug, Clone)]
+pub struct FilmAtSpeed {
+    /// The film.
+    pub solution: FilmSolution,
+    /// The film on half as many cells along both axes, with their grid; none if the grid is too coarse to be halved,
+    /// or if that film does not converge. Its difference is an estimate of the error, which is large where asperities
+    /// carry thin films.
+    pub half: Option<(Grid, FilmSolution)>,
 }
 
 impl<'a> FilmSpeeds<'a> {
@@ -35,9 +62,28 @@ impl<'a> FilmSpeeds<'a> {
     /// # Errors
     /// As [`solve_normal`].
     pub fn new(operator: &mut dyn Operator, problem: FilmProblem<'a>, params: FilmParams) -> Result<Self> {
-        let gap = problem.gap.mapv(|gap| gap - problem.boundary_film);
-        let dry = solve_normal(operator, &gap, &Bounds::ELASTIC, problem.control, None, &Params::default())?;
-        Ok(Self { problem, params, dry: Film::dry(dry.pressure, dry.approach), solved: Vec::new() })
+        Self::on_grid(operator, problem, params, Cow::Borrowed(problem.gap))
+    }
+
+    fn on_grid(
+        operator: &mut dyn Operator,
+        problem: FilmProblem<'a>,
+        params: FilmParams,
+        gap: Cow<'a, Field>,
+    ) -> Result<Self> {
+        let above = gap.mapv(|gap| gap - problem.boundary_film);
+        let dry =
+            solve_normal(operator, &above, &Bounds::ELASTIC, problem.control, None, &Params::default())?;
+        let half = if operator.grid().shape.iter().all(|cells| *cells >= HALVED) {
+            let mut operator = operator.coarse();
+            let gap = Cow::Owned(coarse_means(&gap));
+            let films = Self::on_grid(&mut *operator, problem, params, gap)?;
+            Some(Box::new(Half { operator, films }))
+        } else {
+            None
+        };
+        let dry = Film::dry(dry.pressure, dry.approach);
+        Ok(Self { problem, params, gap, dry, solved: Vec::new(), half })
     }
 
     /// Returns the dry contact, whose solids keep the boundary film between them.
@@ -49,23 +95,36 @@ impl<'a> FilmSpeeds<'a> {
     ///
     /// # Errors
     /// As [`solve_film`]; [`Error::NotConverged`] if no way leads to it.
-    pub fn at(&mut self, operator: &mut dyn Operator, speed: f64) -> Result<FilmSolution> {
-        let solution = self.first_found(operator, speed)?;
+    pub fn at(&mut self, operator: &mut dyn Operator, speed: f64) -> Result<FilmAtSpeed> {
+        let half = match &mut self.half {
+            Some(half) => match half.films.at(&mut *half.operator, speed) {
+                Err(Error::NotConverged { .. }) => None,
+                found => Some((*half.operator.grid(), found?.solution)),
+            },
+            None => None,
+        };
+        let solution =
+            self.first_found(operator, speed, half.as_ref().map(|(_, solution)| &solution.film))?;
         self.solved.push((speed, solution.film.clone()));
-        Ok(solution)
+        Ok(FilmAtSpeed { solution, half })
     }
 
-    fn first_found(&self, operator: &mut dyn Operator, speed: f64) -> Result<FilmSolution> {
+    fn first_found(
+        &self,
+        operator: &mut dyn Operator,
+        speed: f64,
+        half: Option<&Film>,
+    ) -> Result<FilmSolution> {
         let ratio = |other: f64| (other / speed).max(speed / other);
         let nearest = self.solved.iter().min_by(|a, b| ratio(a.0).total_cmp(&ratio(b.0)));
-        if let Some((_, film)) = nearest.filter(|(other, _)| ratio(*other) <= NEAR)
-            && let Some(solution) = self.tried(operator, speed, film)?
-        {
-            return Ok(solution);
-        }
-        for start in self.starts(operator, speed)? {
-            if let Some(solution) = self.tried(operator, speed, &start)? {
-                return Ok(solution);
+        let nearest = nearest.filter(|(other, _)| ratio(*other) <= NEAR).map(|(_, film)| film.clone());
+        let known: Vec<Film> =
+            nearest.into_iter().chain(half.map(|half| half.on_twice(self.gap.dim()))).collect();
+        for starts in [known, self.unknown()] {
+            for start in self.by_residual(operator, speed, starts)? {
+                if let Some(solution) = self.tried(operator, speed, &start)? {
+                    return Ok(solution);
+                }
             }
         }
         self.followed(operator, speed)
@@ -74,7 +133,7 @@ impl<'a> FilmSpeeds<'a> {
     /// Follows the film in time from the dry contact to its steady state. Steps of time become longer while they
     /// succeed.
     fn followed(&self, operator: &mut dyn Operator, speed: f64) -> Result<FilmSolution> {
-        let problem = FilmProblem { speed, ..self.problem };
+        let problem = self.problem(speed);
         let transit = operator.grid().pitch[0] / speed;
         let mut duration = transit;
         let mut film = self.dry.clone();
@@ -97,47 +156,68 @@ impl<'a> FilmSpeeds<'a> {
         }
     }
 
-    fn solve(&self, operator: &mut dyn Operator, speed: f64, start: &Film) -> Result<FilmSolution> {
-        solve_film(operator, &FilmProblem { speed, ..self.problem }, start, &self.params)
+    fn problem(&self, speed: f64) -> FilmProblem<'_> {
+        FilmProblem { gap: &self.gap, speed, ..self.problem }
     }
 
     /// Returns the solution from this start; none if it does not converge.
     fn tried(&self, operator: &mut dyn Operator, speed: f64, start: &Film) -> Result<Option<FilmSolution>> {
-        match self.solve(operator, speed, start) {
+        match solve_film(operator, &self.problem(speed), start, &self.params) {
             Err(Error::NotConverged { .. }) => Ok(None),
             solution => solution.map(Some),
         }
     }
 
-    /// Returns the dry contact and a film full of oil under its pressure, of the thickness that leaves the least
-    /// residual; the one that leaves less comes first.
-    fn starts(&self, operator: &mut dyn Operator, speed: f64) -> Result<[Film; 2]> {
-        let dry = self.norm(operator, speed, &self.dry)?;
-        let mut least: Option<(f64, Film)> = None;
-        for thickness in THICKNESSES {
-            let thicker = (thickness - 1.0) * self.problem.boundary_film;
-            let film = Film {
-                oil_pressure: self.dry.solid_pressure.clone(),
-                solid_pressure: self.dry.oil_pressure.clone(),
-                cavity: self.dry.cavity.clone(),
-                approach: self.dry.approach - thicker,
-            };
-            let norm = self.norm(operator, speed, &film)?;
-            if least.as_ref().is_none_or(|(least, _)| norm < *least) {
-                least = Some((norm, film));
-            }
-        }
-        let (norm, full) = least.expect("a thickness was tried");
-        let dry_film = self.dry.clone();
-        Ok(if norm < dry { [full, dry_film] } else { [dry_film, full] })
+    /// Returns the dry contact, and films full of oil under its pressure.
+    fn unknown(&self) -> Vec<Film> {
+        let full = THICKNESSES.map(|thickness| Film {
+            oil_pressure: self.dry.solid_pressure.clone(),
+            solid_pressure: self.dry.oil_pressure.clone(),
+            cavity: self.dry.cavity.clone(),
+            approach: self.dry.approach - (thickness - 1.0) * self.problem.boundary_film,
+        });
+        let mut starts = full.to_vec();
+        starts.push(self.dry.clone());
+        starts
     }
 
-    /// Returns the norm of all residuals of a film at its own approach, if an approach is prescribed.
-    fn norm(&self, operator: &mut dyn Operator, speed: f64, film: &Film) -> Result<f64> {
-        let control = match self.problem.control {
-            Control::Approach(_) => Control::Approach(film.approach),
-            load @ Control::Load(_) => load,
+    /// Returns at most two of these films, those that leave the least residual at a speed.
+    fn by_residual(&self, operator: &mut dyn Operator, speed: f64, films: Vec<Film>) -> Result<Vec<Film>> {
+        let mut sorted = Vec::with_capacity(films.len());
+        for film in films {
+            let control = match self.problem.control {
+                Control::Approach(_) => Control::Approach(film.approach),
+                load @ Control::Load(_) => load,
+            };
+            let norm = FilmProblem { control, ..self.problem(speed) }.norm(operator, &film)?;
+            sorted.push((norm, film));
+        }
+        sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(sorted.into_iter().take(2).map(|(_, film)| film).collect())
+    }
+}
+
+impl Film {
+    /// Returns the film on about twice as many cells along both axes, by linear interpolation.
+    fn on_twice(&self, shape: (usize, usize)) -> Self {
+        let twice = |coarse: &Field| {
+            // The two nearest coarse cells along an axis; the first one weighs three quarters.
+            let nearest = |i: usize, cells: usize| {
+                let own = (i / 2).min(cells - 1);
+                [own, if i.is_multiple_of(2) { own.saturating_sub(1) } else { (own + 1).min(cells - 1) }]
+            };
+            let (nx, ny) = coarse.dim();
+            Field::from_shape_fn(shape, |(i, j)| {
+                let ([i, k], [j, l]) = (nearest(i, nx), nearest(j, ny));
+                let along = |j: usize| 0.75 * coarse[(i, j)] + 0.25 * coarse[(k, j)];
+                0.75 * along(j) + 0.25 * along(l)
+            })
         };
-        FilmProblem { speed, control, ..self.problem }.norm(operator, film)
+        Self {
+            oil_pressure: twice(&self.oil_pressure),
+            solid_pressure: twice(&self.solid_pressure),
+            cavity: twice(&self.cavity),
+            approach: self.approach,
+        }
     }
 }

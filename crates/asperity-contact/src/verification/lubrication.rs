@@ -255,7 +255,8 @@ pub(super) const BALL: Case = Case {
             let ball = Ball::new(n, 2.0)?;
             let mut operator = FreeFft::new(ball.grid, MODULUS);
             let solution = FilmSpeeds::new(&mut operator, ball.problem(), FilmParams::default())?
-                .at(&mut operator, 1.0)?;
+                .at(&mut operator, 1.0)?
+                .solution;
             let h = &solution.thickness;
             let least = h.iter().copied().fold(f64::INFINITY, f64::min);
             let forces = FilmForces::of(
@@ -289,7 +290,7 @@ pub(super) const SLOW: Case = Case {
             ball.gap.indexed_iter_mut().for_each(|((i, j), gap)| *gap += 50e-9 * wave(i) * wave(j));
             let mut operator = FreeFft::new(ball.grid, MODULUS);
             let mut speeds = FilmSpeeds::new(&mut operator, ball.problem(), PARAMS)?;
-            let solution = speeds.at(&mut operator, 1e-6 / slow as f64)?;
+            let solution = speeds.at(&mut operator, 1e-6 / slow as f64)?.solution;
             let dry = &speeds.dry().solid_pressure;
             Ok([largest(&(&solution.film.solid_pressure - dry)) / largest(dry)])
         })

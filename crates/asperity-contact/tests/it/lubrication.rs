@@ -41,7 +41,7 @@ fn problem(gap: &Field, speed: f64, load: f64) -> FilmProblem<'_> {
 
 fn solved(operator: &mut dyn Operator, problem: FilmProblem<'_>) -> Result<FilmSolution> {
     let speed = problem.speed;
-    FilmSpeeds::new(operator, problem, FilmParams::default())?.at(operator, speed)
+    Ok(FilmSpeeds::new(operator, problem, FilmParams::default())?.at(operator, speed)?.solution)
 }
 
 /// What the flow sees of a cell.
@@ -138,9 +138,9 @@ fn films_of_random_contacts_leave_no_residual() {
         let shape = [random.random_range(16..28), random.random_range(14..24)];
         let across = if n % 3 == 2 { Edge::Periodic } else { Edge::Free };
         let (grid, gap) =
-            ball(shape, 10_f64.powf(random.random_range(-8.5..-6.8)), random.random_range(0.0..6.0));
+            ball(shape, 10_f64.powf(random.random_range(-8.0..-6.8)), random.random_range(0.0..6.0));
         let mut operator = Operators::new(grid, MODULUS, Boundary([Edge::Free, across])).on(shape);
-        let speed = 10_f64.powf(random.random_range(-5.0..0.5));
+        let speed = 10_f64.powf(random.random_range(-4.0..-0.5));
         let load = 10_f64.powf(random.random_range(-1.0..0.3));
         let problem = problem(&gap, speed, load);
         let solution = solved(&mut *operator, problem).unwrap();
@@ -180,10 +180,10 @@ fn the_answer_does_not_depend_on_the_start_or_on_the_order_of_speeds() {
     let slow_first = {
         let mut speeds =
             FilmSpeeds::new(&mut operator, problem(&gap, 1.0, load), FilmParams::default()).unwrap();
-        [1e-3, 1e-2, 0.1].map(|speed| speeds.at(&mut operator, speed).unwrap())
+        [1e-3, 1e-2, 0.1].map(|speed| speeds.at(&mut operator, speed).unwrap().solution)
     };
     let mut speeds = FilmSpeeds::new(&mut operator, problem(&gap, 1.0, load), FilmParams::default()).unwrap();
-    let fast_first = [2.0, 0.1, 1e-2, 1e-3].map(|speed| speeds.at(&mut operator, speed).unwrap());
+    let fast_first = [2.0, 0.1, 1e-2, 1e-3].map(|speed| speeds.at(&mut operator, speed).unwrap().solution);
     for (one, other) in slow_first.iter().zip(fast_first.iter().rev()) {
         let most = one.film.oil_pressure.iter().chain(&one.film.solid_pressure).copied().fold(0.0, f64::max);
         for (a, b) in [
@@ -197,6 +197,22 @@ fn the_answer_does_not_depend_on_the_start_or_on_the_order_of_speeds() {
 }
 
 #[test]
+fn a_film_comes_with_that_on_half_as_many_cells() {
+    let (grid, gap) = ball([48, 40], 0.0, 0.0);
+    let mut operator = FreeFft::new(grid, MODULUS);
+    let films = FilmSpeeds::new(&mut operator, problem(&gap, 1.0, 4.0), FilmParams::default());
+    let film = films.unwrap().at(&mut operator, 1.0).unwrap();
+    let (coarse, half) = film.half.unwrap();
+    assert_eq!((coarse.shape, coarse.pitch), ([24, 20], [16e-6; 2]));
+    let central = |solution: &FilmSolution| {
+        let (nx, ny) = solution.thickness.dim();
+        solution.thickness[(nx / 2, ny / 2)]
+    };
+    let off = central(&half) / central(&film.solution) - 1.0;
+    assert!(off.abs() > 1e-4 && off.abs() < 0.1, "{off:e}");
+}
+
+#[test]
 fn an_oil_that_is_ten_times_thinner_and_faster_gives_the_same_film() {
     let (grid, gap) = ball([20, 16], 30e-9, 0.5);
     let mut operator = FreeFft::new(grid, MODULUS);
@@ -204,7 +220,7 @@ fn an_oil_that_is_ten_times_thinner_and_faster_gives_the_same_film() {
     let [one, other] = [(0.04, 0.05), (0.004, 0.5)].map(|(viscosity, speed)| {
         let oil = Oil { viscosity, law: ViscosityLaw::Barus, ..OIL };
         let problem = FilmProblem { oil, ..problem(&gap, speed, 1.0) };
-        FilmSpeeds::new(&mut operator, problem, params).unwrap().at(&mut operator, speed).unwrap()
+        FilmSpeeds::new(&mut operator, problem, params).unwrap().at(&mut operator, speed).unwrap().solution
     });
     let off = (&one.thickness - &other.thickness).iter().fold(0.0, |most: f64, off| most.max(off.abs()));
     assert!(off < 1e-9 * one.thickness.iter().copied().fold(0.0, f64::max), "{off:e}");

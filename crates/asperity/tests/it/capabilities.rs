@@ -86,6 +86,8 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             "asperity-study/src/case/rules/bodies.rs",
             // An example of cycles in time, which only it looks at.
             "asperity-study/src/case/rules/viscoelastic.rs",
+            // The title of its example.
+            "asperity-cli/src/example/kits.rs",
             // Its function in Python, and the rows of a run.
             "asperity-python/src/fatigue.rs",
             "asperity-python/src/lib.rs",
