@@ -15,6 +15,9 @@ const HALVED: usize = 32;
 /// Largest ratio of two speeds at which one solution is tried as the start of the other.
 const NEAR: f64 = 10.0;
 
+/// Least logarithm of the ratio of two speeds on the way from one to another.
+const LEAST_STRIDE: f64 = 0.05;
+
 /// Factor between one step of time and the next on the way to a steady film.
 const LONGER: f64 = 3.0;
 
@@ -26,17 +29,25 @@ const THICKNESSES: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 
 /// The films of two bodies at the speeds of a Stribeck curve, in any order.
 ///
-/// Each film is solved for on half as many cells along both axes first. It starts from that film or from the one at
-/// the nearest speed, without them from the dry contact or from a full film under its pressure: from the one that
-/// leaves less residual, and if that fails from the others. At last the film is followed in time.
+/// Each film is solved for on half as many cells along both axes first. It starts from the film at the nearest speed,
+/// and if that is full, with the change of the coarse one. If it fails, speeds between are solved for. The first film
+/// starts from the coarse one, or from the dry contact, or from a full film under the pressure of the dry contact. At
+/// last the film is followed in time.
 pub struct FilmSpeeds<'a> {
     /// The problem on the finest grid.
     problem: FilmProblem<'a>,
     params: FilmParams,
     gap: Cow<'a, Field>,
     dry: Film,
-    solved: Vec<(f64, Film)>,
+    solved: Vec<Solved>,
     half: Option<Box<Half<'a>>>,
+}
+
+/// A film that was solved for, and the one on half as many cells.
+struct Solved {
+    speed: f64,
+    film: Film,
+    half: Option<Film>,
 }
 
 /// The same films on half as many cells.
@@ -103,9 +114,9 @@ impl<'a> FilmSpeeds<'a> {
             },
             None => None,
         };
-        let solution =
-            self.first_found(operator, speed, half.as_ref().map(|(_, solution)| &solution.film))?;
-        self.solved.push((speed, solution.film.clone()));
+        let coarse = half.as_ref().map(|(_, half)| half.film.clone());
+        let solution = self.first_found(operator, speed, coarse.as_ref())?;
+        self.solved.push(Solved { speed, film: solution.film.clone(), half: coarse });
         Ok(FilmAtSpeed { solution, half })
     }
 
@@ -116,18 +127,61 @@ impl<'a> FilmSpeeds<'a> {
         half: Option<&Film>,
     ) -> Result<FilmSolution> {
         let ratio = |other: f64| (other / speed).max(speed / other);
-        let nearest = self.solved.iter().min_by(|a, b| ratio(a.0).total_cmp(&ratio(b.0)));
-        let nearest = nearest.filter(|(other, _)| ratio(*other) <= NEAR).map(|(_, film)| film.clone());
-        let known: Vec<Film> =
-            nearest.into_iter().chain(half.map(|half| half.on_twice(self.gap.dim()))).collect();
-        for starts in [known, self.unknown()] {
-            for start in self.by_residual(operator, speed, starts)? {
-                if let Some(solution) = self.tried(operator, speed, &start)? {
-                    return Ok(solution);
-                }
+        let nearest = self.solved.iter().min_by(|a, b| ratio(a.speed).total_cmp(&ratio(b.speed)));
+        let nearest = nearest.filter(|nearest| ratio(nearest.speed) <= NEAR);
+        for start in self.known(nearest, half) {
+            if let Some(solution) = self.tried(operator, speed, &start)? {
+                return Ok(solution);
+            }
+        }
+        if let Some(nearest) = nearest
+            && let Some(solution) = self.approached(operator, nearest, speed)?
+        {
+            return Ok(solution);
+        }
+        for start in self.unknown(operator, speed)? {
+            if let Some(solution) = self.tried(operator, speed, &start)? {
+                return Ok(solution);
             }
         }
         self.followed(operator, speed)
+    }
+
+    /// Returns what the film may start from, the best first. Where the film is full, the edge of its cavity moves by
+    /// many cells from speed to speed, which the film on half as many cells knows. Where solids touch, the film at the
+    /// nearest speed knows more.
+    fn known(&self, nearest: Option<&Solved>, half: Option<&Film>) -> Vec<Film> {
+        let Some(Solved { film, half: before, .. }) = nearest else {
+            return half.iter().map(|half| half.on_twice(self.gap.dim())).collect();
+        };
+        let is_full = half.is_some_and(|half| half.solid_pressure.sum() == 0.0);
+        let changed = before.as_ref().zip(half).map(|(before, half)| film.changed_as(before, half));
+        let mut starts: Vec<Film> = changed.into_iter().chain([film.clone()]).collect();
+        if !is_full {
+            starts.reverse();
+        }
+        starts
+    }
+
+    /// Walks from a film to a speed in strides that are half as long, on a logarithmic scale, where one fails.
+    fn approached(
+        &self,
+        operator: &mut dyn Operator,
+        from: &Solved,
+        speed: f64,
+    ) -> Result<Option<FilmSolution>> {
+        let (mut reached, mut film) = (from.speed, Cow::Borrowed(&from.film));
+        let mut stride = (speed / reached).sqrt();
+        while stride.ln().abs() > LEAST_STRIDE {
+            let is_last = (reached * stride / speed).ln() * stride.ln() >= -1e-9;
+            let next = if is_last { speed } else { reached * stride };
+            match self.tried(operator, next, &film)? {
+                Some(solution) if is_last => return Ok(Some(solution)),
+                Some(solution) => (reached, film) = (next, Cow::Owned(solution.film)),
+                None => stride = stride.sqrt(),
+            }
+        }
+        Ok(None)
     }
 
     /// Follows the film in time from the dry contact to its steady state. Steps of time become longer while they
@@ -168,36 +222,54 @@ impl<'a> FilmSpeeds<'a> {
         }
     }
 
-    /// Returns the dry contact, and films full of oil under its pressure.
-    fn unknown(&self) -> Vec<Film> {
-        let full = THICKNESSES.map(|thickness| Film {
-            oil_pressure: self.dry.solid_pressure.clone(),
-            solid_pressure: self.dry.oil_pressure.clone(),
-            cavity: self.dry.cavity.clone(),
-            approach: self.dry.approach - (thickness - 1.0) * self.problem.boundary_film,
-        });
-        let mut starts = full.to_vec();
-        starts.push(self.dry.clone());
-        starts
+    /// Returns the dry contact and the film full of oil under its pressure whose thickness leaves the least residual;
+    /// the one that leaves less comes first.
+    fn unknown(&self, operator: &mut dyn Operator, speed: f64) -> Result<[Film; 2]> {
+        let mut least: Option<(f64, Film)> = None;
+        for thickness in THICKNESSES {
+            let film = Film {
+                oil_pressure: self.dry.solid_pressure.clone(),
+                solid_pressure: self.dry.oil_pressure.clone(),
+                cavity: self.dry.cavity.clone(),
+                approach: self.dry.approach - (thickness - 1.0) * self.problem.boundary_film,
+            };
+            let norm = self.norm(operator, speed, &film)?;
+            if least.as_ref().is_none_or(|(least, _)| norm < *least) {
+                least = Some((norm, film));
+            }
+        }
+        let (norm, full) = least.expect("a thickness was tried");
+        let dry = self.dry.clone();
+        Ok(if norm < self.norm(operator, speed, &dry)? { [full, dry] } else { [dry, full] })
     }
 
-    /// Returns at most two of these films, those that leave the least residual at a speed.
-    fn by_residual(&self, operator: &mut dyn Operator, speed: f64, films: Vec<Film>) -> Result<Vec<Film>> {
-        let mut sorted = Vec::with_capacity(films.len());
-        for film in films {
-            let control = match self.problem.control {
-                Control::Approach(_) => Control::Approach(film.approach),
-                load @ Control::Load(_) => load,
-            };
-            let norm = FilmProblem { control, ..self.problem(speed) }.norm(operator, &film)?;
-            sorted.push((norm, film));
-        }
-        sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Ok(sorted.into_iter().take(2).map(|(_, film)| film).collect())
+    /// Returns the norm of all residuals of a film, at its own approach if one is prescribed.
+    fn norm(&self, operator: &mut dyn Operator, speed: f64, film: &Film) -> Result<f64> {
+        let control = match self.problem.control {
+            Control::Approach(_) => Control::Approach(film.approach),
+            load @ Control::Load(_) => load,
+        };
+        FilmProblem { control, ..self.problem(speed) }.norm(operator, film)
     }
 }
 
 impl Film {
+    /// Returns a film that has changed as one on half as many cells did.
+    fn changed_as(&self, before: &Self, after: &Self) -> Self {
+        let [before, after] = [before, after].map(|film| film.on_twice(self.cavity.dim()));
+        let changed = |film: &Field, before: &Field, after: &Field, most: f64| {
+            (film + &(after - before)).mapv(|value| value.clamp(0.0, most))
+        };
+        let pressure =
+            |film: &Field, before: &Field, after: &Field| changed(film, before, after, f64::INFINITY);
+        Self {
+            oil_pressure: pressure(&self.oil_pressure, &before.oil_pressure, &after.oil_pressure),
+            solid_pressure: pressure(&self.solid_pressure, &before.solid_pressure, &after.solid_pressure),
+            cavity: changed(&self.cavity, &before.cavity, &after.cavity, 1.0),
+            approach: self.approach + after.approach - before.approach,
+        }
+    }
+
     /// Returns the film on about twice as many cells along both axes, by linear interpolation.
     fn on_twice(&self, shape: (usize, usize)) -> Self {
         let twice = |coarse: &Field| {
