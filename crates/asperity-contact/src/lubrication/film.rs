@@ -249,7 +249,7 @@ impl<'a> FilmProblem<'a> {
         let pressure = match self.control {
             Control::Load(load) => load / (cells * dx * dy),
             Control::Approach(approach) => {
-                // What drives the oil through a uniform film.
+                // The pressure that drives the oil through a uniform film.
                 let mean = self.gap.sum() / cells - approach;
                 let film = mean.max(self.boundary_film);
                 let squeezed = self.step.map_or(0.0, |step| {

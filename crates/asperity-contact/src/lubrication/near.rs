@@ -26,7 +26,7 @@ impl Near {
     }
 }
 
-/// Which cell lies at an offset from another.
+/// The cells at offsets from another.
 #[derive(Clone, Copy)]
 pub(super) struct Neighbours {
     pub(super) shape: [usize; 2],

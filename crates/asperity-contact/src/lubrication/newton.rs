@@ -43,7 +43,7 @@ pub(super) struct Newton<'a> {
     pub(super) krylov: usize,
 }
 
-/// Where a solution has got to.
+/// The last state of an iteration.
 pub(super) struct Reached {
     pub(super) state: State,
     pub(super) h: Vec<f64>,
@@ -154,7 +154,7 @@ struct System<'a> {
     balances: &'a [Balance],
     sides: &'a Sides,
     cells: Neighbours,
-    /// What is known of the step: pressures and fractions that become 0.
+    /// The known part of the step: pressures and fractions that become 0.
     known: State,
     right: Vec<f64>,
     /// Share of the load that a unit of pressure in a cell bears; none under a prescribed approach.
