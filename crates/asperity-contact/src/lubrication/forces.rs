@@ -50,7 +50,7 @@ pub struct FilmForces {
 impl FilmForces {
     /// Computes the forces of a solution between surfaces whose speeds differ by `sliding` ≥ 0, m/s. The pressures
     /// at the ends of the film are 0.
-    pub fn of(
+    pub fn new(
         problem: &FilmProblem<'_>,
         solution: &FilmSolution,
         grid: &Grid,

@@ -93,7 +93,7 @@ impl Factor {
         find_borders(&entries, &mut fronts);
         let parts: Vec<OnceLock<Part>> = fronts.iter().map(|_| OnceLock::new()).collect();
         if !fronts.is_empty() {
-            Elimination { fronts: &fronts, entries: &entries, parts: &parts }.of(fronts.len() - 1);
+            Elimination { fronts: &fronts, entries: &entries, parts: &parts }.eliminate(fronts.len() - 1);
         }
         let parts = parts.into_iter().map(|part| part.into_inner().expect("every front is eliminated"));
         Self { order, parts: parts.collect(), fronts }
@@ -270,14 +270,14 @@ struct Elimination<'a> {
 
 impl Elimination<'_> {
     /// Eliminates a front and all below it. Returns what is left of it in its border.
-    fn of(&self, f: usize) -> Vec<f64> {
+    fn eliminate(&self, f: usize) -> Vec<f64> {
         let front = &self.fronts[f];
         let (p, b) = (front.pivots.len(), front.border.len());
         let children = &front.children;
         let below: Vec<Vec<f64>> = if p + b >= WORTH_A_THREAD {
-            parallel::tasks(children.clone(), |child| self.of(child))
+            parallel::tasks(children.clone(), |child| self.eliminate(child))
         } else {
-            children.iter().map(|child| self.of(*child)).collect()
+            children.iter().map(|child| self.eliminate(*child)).collect()
         };
         let m = p + b;
         let mut a = vec![0.0; m * m];
@@ -291,7 +291,7 @@ impl Elimination<'_> {
                 to.iter().zip(values).for_each(|(column, value)| a[row * m + column] += value);
             }
         }
-        eliminate(&mut a, p, m);
+        eliminate_pivots(&mut a, p, m);
         let (mut lower, mut upper) = (Vec::with_capacity(m * p), Vec::with_capacity(p * b));
         let mut rest = Vec::with_capacity(b * b);
         for (i, row) in a.chunks_exact(m.max(1)).enumerate() {
@@ -318,7 +318,7 @@ impl Front {
 }
 
 /// Eliminates the first `p` of `m` rows and columns.
-fn eliminate(a: &mut [f64], p: usize, m: usize) {
+fn eliminate_pivots(a: &mut [f64], p: usize, m: usize) {
     for first in (0..p).step_by(PANEL) {
         let last = p.min(first + PANEL);
         for k in first..last {

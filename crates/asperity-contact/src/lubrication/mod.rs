@@ -29,10 +29,10 @@
 //! };
 //! let mut speeds = FilmSpeeds::new(&mut operator, problem, FilmParams::default())?;
 //! for (speed, solids, friction) in [(1e-4, 0.9..=1.0, 0.11..=0.12), (1.0, 0.0..=0.0, 0.03..=0.06)] {
-//!     let film = speeds.at(&mut operator, speed)?.solution;
+//!     let film = speeds.film_at(&mut operator, speed)?.solution;
 //!     let problem = FilmProblem { speed, ..problem };
 //!     // A body at rest, and one at twice the mean speed.
-//!     let forces = FilmForces::of(&problem, &film, &grid, Boundary::FREE, 2.0 * speed, Shear::Limited(0.05));
+//!     let forces = FilmForces::new(&problem, &film, &grid, Boundary::FREE, 2.0 * speed, Shear::Limited(0.05));
 //!     assert!(solids.contains(&forces.solid_share()), "{forces:?}");
 //!     assert!(friction.contains(&forces.friction_coefficient(0.12)), "{forces:?}");
 //! }

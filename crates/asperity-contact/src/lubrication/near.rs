@@ -35,7 +35,7 @@ pub(super) struct Neighbours {
 
 impl Neighbours {
     #[inline]
-    pub(super) fn of(self, cell: usize, [di, dj]: [isize; 2]) -> Option<usize> {
+    pub(super) fn cell_at(self, cell: usize, [di, dj]: [isize; 2]) -> Option<usize> {
         let [nx, ny] = self.shape;
         let i = (cell / ny).checked_add_signed(di).filter(|i| *i < nx)?;
         let j = (cell % ny) as isize + dj;
@@ -189,7 +189,7 @@ impl Assembly<'_> {
                 (at / WINDOW[1]) as isize - REACH[0] as isize,
                 (at % WINDOW[1]) as isize - REACH[1] as isize,
             ];
-            let Some(other) = self.cells.of(k, offset) else { continue };
+            let Some(other) = self.cells.cell_at(k, offset) else { continue };
             let value = if self.sides.empty[other] {
                 match offset {
                     [0, 0] => balance.by_cavity[0],
@@ -210,7 +210,7 @@ impl Assembly<'_> {
     fn contact(&self, k: usize, push: &mut impl FnMut(usize, bool, f64)) {
         let Scales { pressure, film, .. } = *self.scales;
         for (offset, displacement) in self.near.each() {
-            let Some(other) = self.cells.of(k, offset) else { continue };
+            let Some(other) = self.cells.cell_at(k, offset) else { continue };
             let value = displacement * pressure * film;
             if !self.sides.empty[other] {
                 push(other, false, value);

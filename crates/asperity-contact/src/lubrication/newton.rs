@@ -296,11 +296,11 @@ impl<'a> System<'a> {
                     if by_pressure == 0.0 && by_film == 0.0 {
                         continue;
                     }
-                    if let Some(other) = cells.of(k, offset) {
+                    if let Some(other) = cells.cell_at(k, offset) {
                         sum += by_pressure * step.oil[other] + by_film * film[other];
                     }
                 }
-                if let Some(upstream) = cells.of(k, OFFSETS[UPSTREAM]) {
+                if let Some(upstream) = cells.cell_at(k, OFFSETS[UPSTREAM]) {
                     sum += balance.by_cavity[1] * step.cavity[upstream];
                 }
                 *change = sum;

@@ -106,9 +106,9 @@ impl<'a> FilmSpeeds<'a> {
     ///
     /// # Errors
     /// As [`solve_film`]; [`Error::NotConverged`] if no way leads to it.
-    pub fn at(&mut self, operator: &mut dyn Operator, speed: f64) -> Result<FilmAtSpeed> {
+    pub fn film_at(&mut self, operator: &mut dyn Operator, speed: f64) -> Result<FilmAtSpeed> {
         let half = match &mut self.half {
-            Some(half) => match half.films.at(&mut *half.operator, speed) {
+            Some(half) => match half.films.film_at(&mut *half.operator, speed) {
                 Err(Error::NotConverged { .. }) => None,
                 found => Some((*half.operator.grid(), found?.solution)),
             },

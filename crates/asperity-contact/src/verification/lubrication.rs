@@ -124,7 +124,7 @@ pub(super) const PAD: Case = Case {
                 step: None,
             };
             let boundary = Boundary([Edge::Free, Edge::Periodic]);
-            let forces = FilmForces::of(&problem, &solution, &grid, boundary, 2.0 * SPEED, Shear::Newtonian);
+            let forces = FilmForces::new(&problem, &solution, &grid, boundary, 2.0 * SPEED, Shear::Newtonian);
             let width = grid.extent()[1];
             Ok([
                 relative_max(&solution.film.oil_pressure, &exact),
@@ -255,11 +255,11 @@ pub(super) const BALL: Case = Case {
             let ball = Ball::new(n, 2.0)?;
             let mut operator = FreeFft::new(ball.grid, MODULUS);
             let solution = FilmSpeeds::new(&mut operator, ball.problem(), FilmParams::default())?
-                .at(&mut operator, 1.0)?
+                .film_at(&mut operator, 1.0)?
                 .solution;
             let h = &solution.thickness;
             let least = h.iter().copied().fold(f64::INFINITY, f64::min);
-            let forces = FilmForces::of(
+            let forces = FilmForces::new(
                 &ball.problem(),
                 &solution,
                 &ball.grid,
@@ -290,7 +290,7 @@ pub(super) const SLOW: Case = Case {
             ball.gap.indexed_iter_mut().for_each(|((i, j), gap)| *gap += 50e-9 * wave(i) * wave(j));
             let mut operator = FreeFft::new(ball.grid, MODULUS);
             let mut speeds = FilmSpeeds::new(&mut operator, ball.problem(), PARAMS)?;
-            let solution = speeds.at(&mut operator, 1e-6 / slow as f64)?.solution;
+            let solution = speeds.film_at(&mut operator, 1e-6 / slow as f64)?.solution;
             let dry = &speeds.dry().solid_pressure;
             Ok([largest(&(&solution.film.solid_pressure - dry)) / largest(dry)])
         })
