@@ -6,7 +6,7 @@ use super::newton::{Newton, Reached};
 use super::oil::Oil;
 use super::state::{Scales, State};
 use crate::error::{Error, Result, check, check_in};
-use crate::grid::{Field, Grid, check_finite, flat};
+use crate::grid::{Field, Grid, check_finite, in_rows};
 use crate::operator::{Boundary, Operator};
 use crate::solver::Control;
 use crate::units::{Dimension, Metre, Pascal};
@@ -93,17 +93,6 @@ pub struct FilmSolution {
 }
 
 impl Film {
-    /// Returns a film full of oil, under this pressure, at the approach that leaves the thickness `least` where
-    /// the undeformed gap is least.
-    pub fn full(operator: &mut dyn Operator, gap: &Field, oil_pressure: Field, least: Metre) -> Self {
-        let mut displacement = Field::zeros(gap.raw_dim());
-        operator.apply(&oil_pressure, &mut displacement);
-        let closest = gap.indexed_iter().min_by(|a, b| a.1.total_cmp(b.1)).map_or((0, 0), |(cell, _)| cell);
-        let approach = gap[closest] + displacement[closest] - least;
-        let zeros = Field::zeros(gap.raw_dim());
-        Self { oil_pressure, solid_pressure: zeros.clone(), cavity: zeros, approach }
-    }
-
     /// Returns the dry contact of this pressure and approach, with oil at ambient pressure around.
     pub fn dry(solid_pressure: Field, approach: Metre) -> Self {
         let zeros = Field::zeros(solid_pressure.raw_dim());
@@ -127,12 +116,18 @@ impl FilmProblem<'_> {
         check("speed", self.speed, self.speed >= 0.0 && self.speed.is_finite(), "at least 0 m/s")?;
         let good = self.boundary_film > 0.0 && self.boundary_film.is_finite();
         check_in(Dimension::Length, "boundary_film", self.boundary_film, good, "above 0")?;
+        if let Control::Load(load) = self.control {
+            check_in(Dimension::Force, "load", load, load > 0.0 && load.is_finite(), "above 0")?;
+        }
         for end in self.ends {
-            check_in(Dimension::Pressure, "pressure at an end", end, end >= 0.0, "at least 0")?;
+            let good = end >= 0.0 && end.is_finite();
+            check_in(Dimension::Pressure, "pressure at an end", end, good, "at least 0")?;
         }
         if let Some(step) = self.step {
             check_in(Dimension::Time, "duration", step.duration, step.duration > 0.0, "above 0")?;
+            assert_eq!(step.before.len(), self.gap.len(), "oil before the step in each cell");
         }
+        assert_eq!(self.gap.shape(), operator.grid().shape, "a gap on the grid of the operator");
         check_finite("gap", self.gap.shape(), self.gap)?;
         if operator.boundary().repeats(0) {
             return Err(Error::Unsupported("a film that repeats along x, the direction of the flow"));
@@ -146,6 +141,9 @@ impl FilmProblem<'_> {
 /// # Errors
 /// [`Error::OutOfRange`] for numbers without a meaning; [`Error::NotConverged`] if the residual stays above the
 /// tolerance. A step of time should then be halved, and a speed approached from its neighbours.
+///
+/// # Panics
+/// If a field has another shape than the operator's grid.
 pub fn solve_film(
     operator: &mut dyn Operator,
     problem: &FilmProblem<'_>,
@@ -162,8 +160,7 @@ pub fn solve_film(
         return Err(Error::NotConverged { iterations, residual, tolerance: params.tolerance });
     }
     let (krylov, convolutions) = (newton.krylov, newton.convolutions);
-    let stored = |k: usize| flow.stored(state.oil[k], state.cavity[k], h[k]);
-    let oil = (0..h.len()).map(stored).collect();
+    let oil = flow.stored(&state.oil, &state.cavity, &h);
     let field = |values| Field::from_shape_vec(shape, values).expect("a value for each cell");
     Ok(FilmSolution {
         film: Film {
@@ -200,7 +197,7 @@ impl<'a> FilmProblem<'a> {
         let flow = self.flow(*operator.grid(), operator.boundary());
         let state = self.state(film);
         let h = self.newton(operator, &flow, film).film(&state);
-        (0..h.len()).map(|k| flow.stored(state.oil[k], state.cavity[k], h[k])).collect()
+        flow.stored(&state.oil, &state.cavity, &h)
     }
 
     /// Returns the norm of all residuals of a film.
@@ -214,6 +211,9 @@ impl<'a> FilmProblem<'a> {
     }
 
     fn state(&self, film: &Film) -> State {
+        for field in [&film.oil_pressure, &film.solid_pressure, &film.cavity] {
+            assert_eq!(field.dim(), self.gap.dim(), "a start on the grid of the gap");
+        }
         let mut state = film.state();
         if let Control::Approach(approach) = self.control {
             state.approach = approach;
@@ -221,7 +221,7 @@ impl<'a> FilmProblem<'a> {
         state
     }
 
-    fn newton<'n>(&self, operator: &'n mut dyn Operator, flow: &'n Flow<'n>, start: &Film) -> Newton<'n>
+    fn newton<'n>(&'n self, operator: &'n mut dyn Operator, flow: &'n Flow<'n>, start: &Film) -> Newton<'n>
     where
         'a: 'n,
     {
@@ -229,7 +229,7 @@ impl<'a> FilmProblem<'a> {
         Newton {
             operator,
             flow,
-            gap: flat(self.gap),
+            gap: in_rows(self.gap),
             control: self.control,
             scales: self.scales(start, flow),
             near,

@@ -126,9 +126,10 @@ impl Balance {
 }
 
 impl Flow<'_> {
-    /// Returns the oil in a cell, ρh(1 − θ)/ρ₀.
-    pub(super) fn stored(&self, pressure: f64, cavity: f64, h: f64) -> f64 {
-        self.oil.under(pressure).density * seen(h, self.boundary_film)[0] * (1.0 - cavity)
+    /// Returns the oil in each cell, ρh(1 − θ)/ρ₀.
+    pub(super) fn stored(&self, p: &[f64], cavity: &[f64], h: &[f64]) -> Vec<f64> {
+        let full = cavity.iter().map(|cavity| 1.0 - cavity);
+        self.held(p, h).iter().zip(full).map(|(held, full)| held.density * held.film * full).collect()
     }
 
     /// Returns the balance of each cell.

@@ -8,6 +8,8 @@
 //! - after each step pressures and cavity fractions are brought back into their range with p + c kept;
 //! - cells are sorted before that.
 
+use std::borrow::Cow;
+
 use super::flow::{Balance, Flow, OFFSETS, UPSTREAM};
 use super::near::{Near, NearFactor, Neighbours};
 use super::state::{Scales, Sides, State};
@@ -35,7 +37,7 @@ const LARGEST_CHANGE: f64 = 0.5;
 pub(super) struct Newton<'a> {
     pub(super) operator: &'a mut dyn Operator,
     pub(super) flow: &'a Flow<'a>,
-    pub(super) gap: &'a [f64],
+    pub(super) gap: Cow<'a, Field>,
     pub(super) control: Control,
     pub(super) scales: Scales,
     pub(super) near: Near,
@@ -67,13 +69,13 @@ impl Newton<'_> {
         let mut point = self.point(start, h);
         let mut iterations = 0;
         loop {
-            let mut system = System::new(self, &point, &sides);
-            let residual = system.right.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
+            let (system, right) = System::new(self, &point, &sides);
+            let residual = right.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
             let is_done = residual <= tolerance && iterations > 0;
             if is_done || iterations == most || !residual.is_finite() {
                 return Reached { state: point.state, h: point.h, residual, iterations };
             }
-            let step = system.solve(self);
+            let step = system.solve(self, right);
             (point, sides) = self.advanced(point, &step);
             iterations += 1;
         }
@@ -123,7 +125,7 @@ impl Newton<'_> {
     /// Returns the film thickness under a state.
     pub(super) fn film(&mut self, state: &State) -> Vec<f64> {
         let mut h = self.displacement(&state.oil, &state.solids);
-        h.iter_mut().zip(self.gap).for_each(|(h, gap)| *h += gap - state.approach);
+        h.iter_mut().zip(self.gap.iter()).for_each(|(h, gap)| *h += gap - state.approach);
         h
     }
 
@@ -156,13 +158,13 @@ struct System<'a> {
     cells: Neighbours,
     /// The known part of the step: pressures and fractions that become 0.
     known: State,
-    right: Vec<f64>,
     /// Share of the load that a unit of pressure in a cell bears; none under a prescribed approach.
     unit_load: Option<f64>,
 }
 
 impl<'a> System<'a> {
-    fn new(newton: &mut Newton<'_>, point: &'a Point, sides: &'a Sides) -> Self {
+    /// Returns the system and its right-hand side.
+    fn new(newton: &mut Newton<'_>, point: &'a Point, sides: &'a Sides) -> (Self, Vec<f64>) {
         let Point { state, h, balances, .. } = point;
         let count = h.len();
         let to_zero = |values: &[f64], becomes: &dyn Fn(usize) -> bool| -> Vec<f64> {
@@ -181,7 +183,7 @@ impl<'a> System<'a> {
             Control::Load(load) => Some(newton.scales.pressure * dx * dy / load),
             Control::Approach(_) => None,
         };
-        let mut system = Self { balances, sides, cells, known, right: Vec::new(), unit_load };
+        let system = Self { balances, sides, cells, known, unit_load };
         let Scales { flow, film, .. } = newton.scales;
         let mut right = vec![0.0; count + sides.contacts.len() + 1];
         system.balance_changes(&system.known, &displacement, &mut right[..count]);
@@ -194,13 +196,11 @@ impl<'a> System<'a> {
         }
         let there = state.plus(1.0, &system.known);
         right[count + sides.contacts.len()] = newton.missing_load(&there.oil, &there.solids);
-        system.right = right;
-        system
+        (system, right)
     }
 
     /// Returns Newton's step.
-    fn solve(&mut self, newton: &mut Newton<'_>) -> State {
-        let right = std::mem::take(&mut self.right);
+    fn solve(&self, newton: &mut Newton<'_>, right: Vec<f64>) -> State {
         let near = NearFactor::new(self.cells, self.balances, &newton.near, self.sides, &newton.scales);
         let lifted = self.lifted(&near, &newton.scales);
         let solution = gmres(

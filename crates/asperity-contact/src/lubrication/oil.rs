@@ -57,6 +57,9 @@ pub struct CompressedOil {
 /// p₀ of Roelands, Pa.
 const ROELANDS: Pascal = 1.96e8;
 
+/// Least viscosity of Roelands' law, Pa s: its lines for all oils meet at 6.3e-5 Pa s.
+const THINNEST: PascalSecond = 1e-4;
+
 /// Largest ln η/η₀. An oil that is stiffer is a solid to any film, and its viscosity would overflow.
 const STIFFEST: f64 = 60.0;
 
@@ -67,8 +70,8 @@ impl Oil {
     /// Creates a compressible oil with Roelands' viscosity.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`](crate::Error::OutOfRange) if the viscosity is not positive, or if the coefficient
-    /// is negative or above 1e-6 1/Pa (oils have 5e-9 … 40e-9).
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) if the viscosity is not positive, or not above 1e-4 Pa s with
+    /// Roelands' law, or if the coefficient is negative or above 1e-6 1/Pa (oils have 5e-9 … 40e-9).
     pub fn new(viscosity: PascalSecond, pressure_viscosity: f64) -> Result<Self> {
         let oil = Self { viscosity, pressure_viscosity, law: ViscosityLaw::Roelands, compressible: true };
         oil.check().map(|()| oil)
@@ -83,7 +86,12 @@ impl Oil {
         check_in(Dimension::Viscosity, "viscosity", self.viscosity, good, "1e-9 … 1e9 Pa s")?;
         let alpha = self.pressure_viscosity;
         let expected = "a number in 1/Pa from 0 to 1e-6; oils have 5e-9 … 40e-9";
-        check("pressure_viscosity", alpha, (0.0..=1e-6).contains(&alpha), expected)
+        check("pressure_viscosity", alpha, (0.0..=1e-6).contains(&alpha), expected)?;
+        if self.law == ViscosityLaw::Roelands {
+            let (good, expected) = (self.viscosity > THINNEST, "above 100 µPa s with Roelands' law");
+            check_in(Dimension::Viscosity, "viscosity", self.viscosity, good, expected)?;
+        }
+        Ok(())
     }
 
     /// Returns the oil under a pressure. Under tension it is as at ambient pressure.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::film::{Film, FilmParams, FilmProblem, FilmSolution, solve_film};
 use super::flow::OilStep;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check};
 use crate::grid::{Field, Grid, coarse_means};
 use crate::operator::Operator;
 use crate::solver::{Bounds, Control, Params, solve_normal};
@@ -23,6 +23,9 @@ const LONGER: f64 = 3.0;
 
 /// Shortest step of time on that way, in times that a surface needs for a cell.
 const SHORTEST: f64 = 1e-3;
+
+/// Most steps of time on that way.
+const MOST_STEPS: usize = 60;
 
 /// Thickness of the films that are tried as the start of a fast one, in boundary films.
 const THICKNESSES: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
@@ -68,10 +71,14 @@ pub struct FilmAtSpeed {
 }
 
 impl<'a> FilmSpeeds<'a> {
-    /// Solves for the dry contact, from which films start. The speed of the problem does not matter.
+    /// Solves for the dry contact, from which films start. The films are steady: the speed of the problem and its
+    /// step of time do not matter.
     ///
     /// # Errors
     /// As [`solve_normal`].
+    ///
+    /// # Panics
+    /// If the gap has another shape than the operator's grid.
     pub fn new(operator: &mut dyn Operator, problem: FilmProblem<'a>, params: FilmParams) -> Result<Self> {
         Self::on_grid(operator, problem, params, Cow::Borrowed(problem.gap))
     }
@@ -105,8 +112,10 @@ impl<'a> FilmSpeeds<'a> {
     /// Solves for the film at a speed > 0.
     ///
     /// # Errors
-    /// As [`solve_film`]; [`Error::NotConverged`] if no way leads to it.
+    /// As [`solve_film`]; [`Error::OutOfRange`] for a speed that is not positive, [`Error::NotConverged`] if no way
+    /// leads to the film.
     pub fn film_at(&mut self, operator: &mut dyn Operator, speed: f64) -> Result<FilmAtSpeed> {
+        check("speed", speed, speed > 0.0 && speed.is_finite(), "above 0 m/s")?;
         let half = match &mut self.half {
             Some(half) => match half.films.film_at(&mut *half.operator, speed) {
                 Err(Error::NotConverged { .. }) => None,
@@ -192,7 +201,7 @@ impl<'a> FilmSpeeds<'a> {
         let mut duration = transit;
         let mut film = self.dry.clone();
         let mut oil = problem.oil_in(operator, &film);
-        loop {
+        for _ in 0..MOST_STEPS {
             let step = Some(OilStep { before: &oil, duration });
             match solve_film(operator, &FilmProblem { step, ..problem }, &film, &self.params) {
                 Ok(solution) => {
@@ -208,10 +217,11 @@ impl<'a> FilmSpeeds<'a> {
                 Err(error) => return Err(error),
             }
         }
+        solve_film(operator, &problem, &film, &self.params)
     }
 
     fn problem(&self, speed: f64) -> FilmProblem<'_> {
-        FilmProblem { gap: &self.gap, speed, ..self.problem }
+        FilmProblem { gap: &self.gap, speed, step: None, ..self.problem }
     }
 
     /// Returns the solution from this start; none if it does not converge.

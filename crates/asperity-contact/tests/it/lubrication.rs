@@ -235,13 +235,19 @@ fn an_oil_that_is_ten_times_thinner_and_faster_gives_the_same_film() {
 fn a_film_without_a_meaning_is_refused() {
     let (grid, gap) = ball([8, 8], 0.0, 0.0);
     let mut operator = FreeFft::new(grid, MODULUS);
-    let start = Film::full(&mut operator, &gap, Field::zeros([8, 8]), 1e-7);
+    let start = Film::dry(Field::zeros([8, 8]), -1e-7);
     let good = problem(&gap, 0.1, 1.0);
     let before = vec![1e-7; 64];
     let wrong = [
         (FilmProblem { oil: Oil { viscosity: 0.0, ..OIL }, ..good }, "viscosity is 0"),
         (FilmProblem { oil: Oil { pressure_viscosity: 20.0, ..OIL }, ..good }, "pressure_viscosity is 20"),
+        (
+            FilmProblem { oil: Oil { viscosity: 2e-5, ..OIL }, ..good },
+            "viscosity is 20 µPa s, expected above 100 µPa s",
+        ),
         (FilmProblem { speed: -1.0, ..good }, "speed is -1"),
+        (FilmProblem { control: Control::Load(0.0), ..good }, "load is 0"),
+        (FilmProblem { ends: [0.0, f64::INFINITY], ..good }, "pressure at an end is inf"),
         (FilmProblem { boundary_film: 0.0, ..good }, "boundary_film is 0"),
         (FilmProblem { ends: [-1.0, 0.0], ..good }, "pressure at an end is -1"),
         (FilmProblem { step: Some(OilStep { before: &before, duration: 0.0 }), ..good }, "duration is 0"),
@@ -249,6 +255,11 @@ fn a_film_without_a_meaning_is_refused() {
     for (problem, says) in wrong {
         let error = solve_film(&mut operator, &problem, &start, &FilmParams::default()).unwrap_err();
         assert!(error.to_string().starts_with(says), "{error}");
+    }
+    let mut speeds = FilmSpeeds::new(&mut operator, good, FilmParams::default()).unwrap();
+    for speed in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = speeds.film_at(&mut operator, speed).unwrap_err();
+        assert!(error.to_string().starts_with("speed is "), "{error}");
     }
     let mut periodic = Operators::new(grid, MODULUS, Boundary::PERIODIC).on([8, 8]);
     let error = solve_film(&mut *periodic, &good, &start, &FilmParams::default()).unwrap_err();

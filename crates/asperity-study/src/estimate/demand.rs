@@ -110,8 +110,8 @@ impl Demand {
     /// Estimates the time of solving and writing, and that of figures and page, on this machine in its
     /// present state.
     ///
-    /// The time of a few convolutions is measured, in a few milliseconds. The sum is accurate within a factor
-    /// of two for the examples, and of three for ordinary contacts.
+    /// The time of a few convolutions is measured, in a few milliseconds. For the examples the estimate is off
+    /// by at most a factor of two, for ordinary contacts by at most a factor of three.
     pub fn times(&self) -> [Second; 2] {
         let unit = unit_of_effort();
         [self.effort * unit, self.drawing * unit]
