@@ -1,16 +1,12 @@
 //! Factors L U of an unsymmetric sparse matrix on the cells of a grid, front by front, in the order of a nested
 //! dissection. There is no pivoting.
 
-use std::ops::Range;
 use std::sync::OnceLock;
 
 use ndarray::linalg::general_mat_mul;
 use ndarray::{ArrayView2, ArrayViewMut2, s};
 
-use crate::math::parallel;
-
-/// Most unknowns that are not dissected further.
-const LEAF: usize = 32;
+use crate::math::{Dissection, Front, find_borders, parallel};
 
 /// Pivots that are applied to the rest of a front at a time.
 const PANEL: usize = 24;
@@ -47,18 +43,6 @@ impl Matrix {
     }
 }
 
-/// Unknowns that are eliminated together, as a dense matrix.
-struct Front {
-    /// Places in the order of elimination.
-    pivots: Range<usize>,
-    /// Places of the unknowns that these are joined to then, all later, ascending.
-    border: Vec<u32>,
-    /// Fronts whose remainders enter this one; all come before it.
-    children: Vec<usize>,
-    /// Entries of the matrix whose row or column is a pivot, and whose other one is not an earlier pivot.
-    entries: Range<usize>,
-}
-
 /// The factors of a front in single precision: they serve a preconditioner.
 struct Part {
     /// Columns of the pivots: L below the diagonal, and U of the pivots themselves.
@@ -88,12 +72,17 @@ impl Factor {
         reach: [usize; 2],
         unknowns: &[[Option<u32>; 2]],
     ) -> Self {
-        let (order, mut fronts) = Dissection::of_grid(shape, repeats, reach, unknowns);
-        let entries = sorted_entries(matrix, &order, &mut fronts);
-        find_borders(&entries, &mut fronts);
+        let (order, mut fronts) = ordered(shape, repeats, reach, unknowns);
+        let entries = Entries::new(matrix, &order, &fronts);
+        find_borders(&mut fronts, |f, _, border| {
+            border.extend(entries.of_front(f).iter().map(|(row, column, _)| *row.max(column)));
+        });
         let parts: Vec<OnceLock<Part>> = fronts.iter().map(|_| OnceLock::new()).collect();
-        if !fronts.is_empty() {
-            Elimination { fronts: &fronts, entries: &entries, parts: &parts }.eliminate(fronts.len() - 1);
+        let elimination = Elimination { fronts: &fronts, entries: &entries, parts: &parts };
+        let mut is_child = vec![false; fronts.len()];
+        fronts.iter().flat_map(|front| &front.children).for_each(|child| is_child[*child] = true);
+        for root in (0..fronts.len()).filter(|f| !is_child[*f]) {
+            elimination.eliminate(root);
         }
         let parts = parts.into_iter().map(|part| part.into_inner().expect("every front is eliminated"));
         Self { order, parts: parts.collect(), fronts }
@@ -142,129 +131,71 @@ fn dot(coefficients: &[f32], values: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
-/// Cuts the grid in two by rows of cells, as thick as the matrix reaches, again and again. A row is eliminated
-/// after both of its sides.
-struct Dissection<'a> {
-    across: usize,
+/// Orders the unknowns of the cells of a grid.
+fn ordered(
+    shape: [usize; 2],
+    repeats: bool,
     reach: [usize; 2],
-    unknowns: &'a [[Option<u32>; 2]],
-    order: Vec<u32>,
-    fronts: Vec<Front>,
+    unknowns: &[[Option<u32>; 2]],
+) -> (Vec<u32>, Vec<Front>) {
+    let wanted: Vec<bool> = unknowns.iter().map(|of_cell| of_cell.iter().any(Option::is_some)).collect();
+    let Dissection { cells, mut fronts } = Dissection::new(shape, &wanted, [false, repeats], reach);
+    let mut order = Vec::with_capacity(2 * cells.len());
+    for front in &mut fronts {
+        let first = order.len();
+        for cell in &cells[front.pivots.clone()] {
+            order.extend(unknowns[*cell as usize].iter().flatten());
+        }
+        front.pivots = first..order.len();
+    }
+    (order, fronts)
 }
 
-impl<'a> Dissection<'a> {
-    fn of_grid(
-        [nx, ny]: [usize; 2],
-        repeats: bool,
-        reach: [usize; 2],
-        unknowns: &'a [[Option<u32>; 2]],
-    ) -> (Vec<u32>, Vec<Front>) {
-        let mut this = Self { across: ny, reach, unknowns, order: Vec::new(), fronts: Vec::new() };
-        // The first rows along a repeating axis close the ring, and come last.
-        let closing = if repeats { reach[1].min(ny) } else { 0 };
-        let children = this.dissect([0..nx, closing..ny]);
-        let first = this.order.len();
-        this.push([0..nx, 0..closing]);
-        let roots = this.front(first, children);
-        if roots.len() > 1 {
-            // One root for parts that nothing joins.
-            let end = this.order.len();
-            this.fronts.push(Front { pivots: end..end, border: Vec::new(), children: roots, entries: 0..0 });
-        }
-        (this.order, this.fronts)
-    }
+/// The entries of a matrix by the front that eliminates the first of their row and column.
+struct Entries {
+    /// Begin of the entries of each front, and the end of the last one.
+    starts: Vec<usize>,
+    entries: Vec<Entry>,
+}
 
-    fn push(&mut self, [x, y]: [Range<usize>; 2]) {
-        for i in x {
-            let cells = i * self.across + y.start..i * self.across + y.end;
-            self.order.extend(self.unknowns[cells].iter().flatten().flatten());
+impl Entries {
+    fn new(matrix: &Matrix, order: &[u32], fronts: &[Front]) -> Self {
+        let mut place = vec![0; order.len()];
+        for (k, unknown) in order.iter().enumerate() {
+            place[*unknown as usize] = k as u32;
         }
-    }
-
-    /// Makes a front of the unknowns pushed since `first`. Without any, its children are left to the next one.
-    fn front(&mut self, first: usize, children: Vec<usize>) -> Vec<usize> {
-        if first == self.order.len() {
-            return children;
+        let mut front_of = vec![0; order.len()];
+        for (f, front) in fronts.iter().enumerate() {
+            front_of[front.pivots.clone()].fill(f);
         }
-        self.fronts.push(Front {
-            pivots: first..self.order.len(),
-            border: Vec::new(),
-            children,
-            entries: 0..0,
-        });
-        vec![self.fronts.len() - 1]
-    }
-
-    fn dissect(&mut self, sides: [Range<usize>; 2]) -> Vec<usize> {
-        let along = usize::from(sides[0].len() * self.reach[1] < sides[1].len() * self.reach[0]);
-        let thick = self.reach[along];
-        let first = self.order.len();
-        if sides[0].len() * sides[1].len() <= LEAF || sides[along].len() < 2 * thick + 1 {
-            self.push(sides);
-            return self.front(first, Vec::new());
-        }
-        let cut = sides[along].start + (sides[along].len() - thick) / 2;
-        let part = |range: Range<usize>| {
-            let mut part = sides.clone();
-            part[along] = range;
-            part
+        let placed = |row: usize| {
+            let (own, place) = (place[row], &place);
+            matrix.row(row).map(move |(column, value)| (own, place[column as usize], value))
         };
-        let mut children = self.dissect(part(sides[along].start..cut));
-        children.append(&mut self.dissect(part(cut + thick..sides[along].end)));
-        let first = self.order.len();
-        self.push(part(cut..cut + thick));
-        self.front(first, children)
+        let of = |(row, column, _): Entry| front_of[row.min(column) as usize];
+        let mut starts = vec![0; fronts.len() + 1];
+        (0..order.len()).flat_map(placed).for_each(|entry| starts[of(entry) + 1] += 1);
+        for f in 0..fronts.len() {
+            starts[f + 1] += starts[f];
+        }
+        let mut next = starts.clone();
+        let mut entries = vec![(0, 0, 0.0); starts[fronts.len()]];
+        for entry in (0..order.len()).flat_map(placed) {
+            let next = &mut next[of(entry)];
+            entries[*next] = entry;
+            *next += 1;
+        }
+        Self { starts, entries }
     }
-}
 
-/// Returns the entries of the matrix by the front that eliminates the first of their row and column.
-fn sorted_entries(matrix: &Matrix, order: &[u32], fronts: &mut [Front]) -> Vec<Entry> {
-    let mut place = vec![0; order.len()];
-    for (k, unknown) in order.iter().enumerate() {
-        place[*unknown as usize] = k as u32;
-    }
-    let mut front_of = vec![0; order.len()];
-    for (f, front) in fronts.iter().enumerate() {
-        front_of[front.pivots.clone()].fill(f);
-    }
-    let placed = |row: usize| {
-        let row_place = place[row];
-        let place = &place;
-        matrix.row(row).map(move |(column, value)| (row_place, place[column as usize], value))
-    };
-    let of = |(row, column, _): Entry| front_of[row.min(column) as usize];
-    let mut ends = vec![0; fronts.len()];
-    (0..order.len()).flat_map(placed).for_each(|entry| ends[of(entry)] += 1);
-    let mut start = 0;
-    for (front, end) in fronts.iter_mut().zip(&mut ends) {
-        let count = std::mem::replace(end, start);
-        front.entries = start..start + count;
-        start += count;
-    }
-    let mut entries = vec![(0, 0, 0.0); start];
-    for entry in (0..order.len()).flat_map(placed) {
-        let next = &mut ends[of(entry)];
-        entries[*next] = entry;
-        *next += 1;
-    }
-    entries
-}
-
-fn find_borders(entries: &[Entry], fronts: &mut [Front]) {
-    for f in 0..fronts.len() {
-        let own = entries[fronts[f].entries.clone()].iter().map(|(row, column, _)| *row.max(column));
-        let mut border: Vec<u32> = own.collect();
-        border.extend(fronts[f].children.iter().flat_map(|child| &fronts[*child].border));
-        border.retain(|place| *place as usize >= fronts[f].pivots.end);
-        border.sort_unstable();
-        border.dedup();
-        fronts[f].border = border;
+    fn of_front(&self, f: usize) -> &[Entry] {
+        &self.entries[self.starts[f]..self.starts[f + 1]]
     }
 }
 
 struct Elimination<'a> {
     fronts: &'a [Front],
-    entries: &'a [Entry],
+    entries: &'a Entries,
     parts: &'a [OnceLock<Part>],
 }
 
@@ -281,7 +212,7 @@ impl Elimination<'_> {
         };
         let m = p + b;
         let mut a = vec![0.0; m * m];
-        for (row, column, value) in &self.entries[front.entries.clone()] {
+        for (row, column, value) in self.entries.of_front(f) {
             a[front.position(*row) * m + front.position(*column)] += value;
         }
         for (child, rest) in children.iter().zip(below) {
@@ -304,16 +235,6 @@ impl Elimination<'_> {
         }
         assert!(self.parts[f].set(Part { lower, upper }).is_ok(), "a front is eliminated once");
         rest
-    }
-}
-
-impl Front {
-    /// Returns the row of a place in the matrix of the front.
-    fn position(&self, place: u32) -> usize {
-        if (place as usize) < self.pivots.end {
-            return place as usize - self.pivots.start;
-        }
-        self.pivots.len() + self.border.binary_search(&place).expect("it is in the border")
     }
 }
 

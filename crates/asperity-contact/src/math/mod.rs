@@ -1,5 +1,6 @@
 //! Mathematics shared by several modules, beside that of `asperity_elastic`.
 
+mod dissection;
 mod gathered;
 mod planes;
 
@@ -10,5 +11,6 @@ pub(crate) use asperity_elastic::math::{
     Cholesky, Convolution, ROWS_ABOVE, SkewConvolution, SkewKernel, SparseInverse, convolution, elliptic,
     gmres, kernel_of_values,
 };
+pub(crate) use dissection::{Dissection, Front, find_borders};
 pub(crate) use gathered::gathered;
 pub(crate) use planes::{Planes, together};

@@ -7,7 +7,8 @@
 //! Heyman, Oper. Res. 33, 1107 (1985)).
 
 use super::faces::{Network, end_cells};
-use super::ordering::{Front, Ordering};
+use super::ordering::Ordering;
+use crate::math::Front;
 
 /// Pivots that are applied to the rest of a front at a time.
 const PANEL: usize = 32;
@@ -47,7 +48,7 @@ impl Factor {
             let mut rest = vec![0.0; b * (b + 1)];
             for (row, pivot) in front.pivots.clone().enumerate() {
                 for (later, transmissibility) in entries.of(pivot) {
-                    let column = if *later == u32::MAX { m } else { position(front, *later) };
+                    let column = if *later == u32::MAX { m } else { front.position(*later) };
                     upper[row * width + column] += transmissibility;
                 }
             }
@@ -156,14 +157,6 @@ impl Entries {
     fn of(&self, pivot: usize) -> &[(u32, f64)] {
         &self.later[self.starts[pivot]..self.starts[pivot + 1]]
     }
-}
-
-/// Returns the row of a cell in a front.
-fn position(front: &Front, number: u32) -> usize {
-    if (number as usize) < front.pivots.end {
-        return number as usize - front.pivots.start;
-    }
-    front.pivots.len() + front.border.binary_search(&number).expect("a neighbour is in the border")
 }
 
 /// Adds the remainder of a child to its parent.
