@@ -136,7 +136,8 @@ impl FilmProblem<'_> {
     }
 }
 
-/// Solves for the film between two bodies, from a `start` that the answer does not depend on.
+/// Solves for the film between two bodies, from a `start` that the answer does not depend on. Under a load it needs
+/// some pressure: without any, the flow does not depend on the approach.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for numbers without a meaning; [`Error::NotConverged`] if the residual stays above the

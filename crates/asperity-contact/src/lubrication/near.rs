@@ -106,7 +106,8 @@ impl NearFactor {
             let mut diagonal = 0.0;
             assembly.flow(k, &mut |cell, is_contact, value| {
                 if cell == k && !is_contact {
-                    diagonal = value;
+                    // Across a single column, several neighbours are the cell itself.
+                    diagonal += value;
                 } else if value != 0.0 {
                     let row = if is_contact { sides.contact_row(cell).expect("it touches") } else { cell };
                     known.push((row as u32, value));

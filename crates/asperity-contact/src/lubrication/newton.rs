@@ -70,7 +70,9 @@ impl Newton<'_> {
         let mut iterations = 0;
         loop {
             let (system, right) = System::new(self, &point, &sides);
-            let residual = right.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
+            // A NaN stays, which `f64::max` would ignore.
+            let larger = |most: f64, r: &f64| if r.abs() > most || r.is_nan() { r.abs() } else { most };
+            let residual = right.iter().fold(0.0, larger);
             let is_done = residual <= tolerance && iterations > 0;
             if is_done || iterations == most || !residual.is_finite() {
                 return Reached { state: point.state, h: point.h, residual, iterations };

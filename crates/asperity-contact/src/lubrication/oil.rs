@@ -94,7 +94,8 @@ impl Oil {
         Ok(())
     }
 
-    /// Returns the oil under a pressure. Under tension it is as at ambient pressure.
+    /// Returns the oil under a pressure. Under tension it is as at ambient pressure. Its viscosity is at most e⁶⁰ times
+    /// that at ambient pressure.
     #[inline]
     pub fn under(&self, pressure: Pascal) -> CompressedOil {
         let p = pressure.max(0.0);

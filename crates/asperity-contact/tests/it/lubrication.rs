@@ -235,7 +235,8 @@ fn an_oil_that_is_ten_times_thinner_and_faster_gives_the_same_film() {
 fn a_film_without_a_meaning_is_refused() {
     let (grid, gap) = ball([8, 8], 0.0, 0.0);
     let mut operator = FreeFft::new(grid, MODULUS);
-    let start = Film::dry(Field::zeros([8, 8]), -1e-7);
+    let start =
+        Film { oil_pressure: Field::from_elem([8, 8], 1e7), ..Film::dry(Field::zeros([8, 8]), -1e-7) };
     let good = problem(&gap, 0.1, 1.0);
     let before = vec![1e-7; 64];
     let wrong = [
@@ -264,6 +265,9 @@ fn a_film_without_a_meaning_is_refused() {
     let mut periodic = Operators::new(grid, MODULUS, Boundary::PERIODIC).on([8, 8]);
     let error = solve_film(&mut *periodic, &good, &start, &FilmParams::default()).unwrap_err();
     assert!(matches!(error, Error::Unsupported(_)), "{error}");
+    let nothing = Film::dry(Field::zeros([8, 8]), -1e-7);
+    let error = solve_film(&mut operator, &good, &nothing, &FilmParams::default()).unwrap_err();
+    assert!(matches!(error, Error::NotConverged { residual, .. } if residual.is_nan()), "{error}");
     let few = FilmParams { max_iterations: 2, ..FilmParams::default() };
     let error = solve_film(&mut operator, &good, &start, &few).unwrap_err();
     assert!(matches!(error, Error::NotConverged { iterations: 2, .. }), "{error}");
@@ -277,4 +281,30 @@ fn shear_is_at_most_what_the_law_allows() {
     let eyring = Shear::Eyring(5e6);
     assert!((eyring.stress(0.1, 1e4, 1e8) / 1e3 - 1.0).abs() < 1e-7);
     assert!((eyring.stress(100.0, 1e7, 1e8) / (5e6 * 200_f64.asinh()) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn films_of_few_cells_leave_no_residual() {
+    for (shape, across) in [
+        ([2, 1], Edge::Free),
+        ([2, 5], Edge::Free),
+        ([7, 1], Edge::Free),
+        ([7, 2], Edge::Free),
+        ([3, 3], Edge::Free),
+        ([9, 1], Edge::Periodic),
+        ([9, 2], Edge::Periodic),
+        ([5, 3], Edge::Periodic),
+    ] {
+        let (grid, gap) = ball(shape, 20e-9, 0.3);
+        let mut operator = Operators::new(grid, MODULUS, Boundary([Edge::Free, across])).on(shape);
+        for speed in [1e-3, 0.1] {
+            let problem = problem(&gap, speed, 0.02);
+            let solution = solved(&mut *operator, problem).unwrap();
+            let left = residual(&grid, &problem, &solution, across);
+            assert!(left < 2e-7, "{shape:?}, {across:?} at {speed} m/s: {left:e}");
+        }
+    }
+    let (grid, gap) = ball([1, 1], 0.0, 0.0);
+    let solution = solved(&mut FreeFft::new(grid, MODULUS), problem(&gap, 0.1, 1e-3)).unwrap();
+    assert!(solution.thickness[(0, 0)] >= 2e-9);
 }
