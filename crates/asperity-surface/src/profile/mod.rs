@@ -26,8 +26,8 @@ impl Profile {
     /// Creates a profile with these `heights`, each finite, or NaN if undefined, `pitch` apart.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there are no heights, if one is infinite, or if the pitch is not a positive
-    /// length.
+    /// [`asperity_base::Error::OutOfRange`] if there are no heights, if one is infinite, or if the pitch is not
+    /// a positive length.
     pub fn new(pitch: Metre, heights: Vec<Metre>) -> Result<Self> {
         check_in(Dimension::Length, "pitch", pitch, pitch > 0.0 && pitch.is_finite(), "a positive length")?;
         check("number of heights", heights.len() as f64, !heights.is_empty(), "at least 1")?;
@@ -55,7 +55,7 @@ impl Profile {
     /// A wave of length λ is reduced to the fraction 2^−(λs/λ)², which is a half at λs. ISO 16610-21.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] unless the nesting index is at least two pitches.
+    /// [`asperity_base::Error::OutOfRange`] unless the nesting index is at least two pitches.
     pub fn primary(&self, nesting_index: Metre) -> Result<Self> {
         self.with(self.smoothed(nesting_index)?, None)
     }
@@ -81,7 +81,7 @@ impl Profile {
     /// Returns the material ratio curve: Rmr(c), Rmc(p), and Rdc(p, q) = Rmc(p) − Rmc(q).
     ///
     /// # Errors
-    /// [`Error::NothingDefined`] without a defined sample.
+    /// [`asperity_base::Error::NothingDefined`] without a defined sample.
     pub fn bearing_curve(&self) -> Result<BearingCurve> {
         BearingCurve::new(&self.heights)
     }
@@ -107,7 +107,7 @@ impl Topography {
     /// Returns the profile along `axis` at the sample `index` of the other axis.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there is no such line.
+    /// [`asperity_base::Error::OutOfRange`] if there is no such line.
     pub fn profile(&self, axis: Axis, index: usize) -> Result<Profile> {
         let lines = self.grid().shape[1 - axis as usize];
         check("index of the profile", index as f64, index < lines, "one of the samples across the profile")?;
@@ -123,7 +123,7 @@ impl Topography {
     /// over the lines.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] unless the cut-off is at least two pitches.
+    /// [`asperity_base::Error::OutOfRange`] unless the cut-off is at least two pitches.
     pub fn profile_parameters(&self, axis: Axis, cutoff: Metre) -> Result<ProfileParameters> {
         let lines = self.profiles(axis).map(|profile| Ok(profile.roughness(cutoff)?.parameters()));
         Ok(ProfileParameters::mean(&lines.collect::<Result<Vec<_>>>()?))
