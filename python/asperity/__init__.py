@@ -42,7 +42,7 @@ from .describe import (
     Summits,
 )
 from .fields import Field, Fields
-from .material import Coating, Compliances, Material, Plasticity, composite_modulus, dundurs, materials, tangential_modulus
+from .material import Coating, Compliances, Material, Plasticity, composite_modulus, dundurs, materials, oils, tangential_modulus
 from .simulation import Contacts, Pass, Simulation, simulate
 from .surface import Surface, channels, read
 from .verification import Check, Verification, verification_cases, verify
@@ -99,6 +99,7 @@ __all__ = [
     "generate",
     "keys",
     "materials",
+    "oils",
     "open",
     "read",
     "reference",

@@ -249,6 +249,26 @@ def materials() -> dict[str, dict[str, Any]]:
     return {material["name"]: {key: material[key] for key in keys} for material in _core.named_materials()}
 
 
+def oils() -> dict[str, dict[str, Any]]:
+    """Return the lubricants that are known by name, with their constants.
+
+    Returns
+    -------
+    dict
+        For each name `about`, the grade; `viscosity` at 40 °C and at 100 °C, Pa s; `pressure_viscosity` at 40 °C, 1/Pa; `density` at
+        15 °C, kg/m³; `law`, how the viscosity rises with pressure; `compressible`; `temperatures`, the lowest and the highest one
+        for which the constants are meant, K; and `source`.
+
+    Examples
+    --------
+    >>> import asperity as asp
+    >>> asp.oils()["ISO VG 46"]["pressure_viscosity"]
+    2.07e-08
+    """
+    keys = ("about", "viscosity", "pressure_viscosity", "density", "law", "compressible", "temperatures", "source")
+    return {oil["name"]: {key: oil[key] for key in keys} for oil in _core.named_oils()}
+
+
 def _named(young: Any) -> dict[str, Any] | None:
     """Return the constants of a material, if this is its name."""
     if not isinstance(young, str) or not young[:1].isalpha() or young.strip().lower() in ("inf", "infinity", "nan"):

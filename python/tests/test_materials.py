@@ -26,6 +26,14 @@ def test_a_name_stands_for_the_constants() -> None:
     assert asp.Material("bearing-steel", 0.29, "5 GPa").poisson == 0.29
 
 
+def test_lubricants_have_their_constants() -> None:
+    oil = asp.oils()["ISO VG 46"]
+    warm, hot = oil["viscosity"]
+    assert 0.038 < warm < 0.042 and 0.005 < hot < 0.006
+    assert (oil["law"], oil["compressible"]) == ("roelands", True)
+    assert asp.oils()["water"]["pressure_viscosity"] == 0
+
+
 def test_the_contact_is_that_of_the_constants() -> None:
     def pressure(material: asp.Material) -> np.ndarray:
         return asp.contact(rough(1), rough(2), material, material, load="20 mN", progress=False).pressure

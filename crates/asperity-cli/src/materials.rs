@@ -2,22 +2,28 @@
 
 use std::fmt::Write as _;
 
+use asperity::Choice as _;
+use asperity::lubrication::{NamedOil, OILS};
 use asperity::material::{MATERIALS, NamedMaterial};
-use asperity::units::{self, Dimension, format_number};
+use asperity::units::{self, CELSIUS, Dimension, format_number};
+use serde_json::{Value, json};
 
 use crate::args::Materials;
 use crate::report::{Outcome, print};
 
 pub(crate) fn materials(arguments: &Materials) -> Outcome {
-    let named =
-        |material: &&NamedMaterial| arguments.name.as_deref().is_none_or(|name| material.name == name);
-    let shown: Vec<&NamedMaterial> = MATERIALS.iter().filter(named).collect();
+    let is_named = |name: &str| arguments.name.as_deref().is_none_or(|named| named == name);
+    let solids: Vec<&NamedMaterial> = MATERIALS.iter().filter(|material| is_named(material.name)).collect();
+    let oils: Vec<&NamedOil> = OILS.iter().filter(|oil| is_named(oil.name)).collect();
     if arguments.json {
-        return print(&format!("{:#}\n", serde_json::json!(shown)));
+        let solids = solids.iter().map(|material| json!(material));
+        let all: Vec<Value> = solids.chain(oils.iter().map(|oil| json!(oil))).collect();
+        return print(&format!("{:#}\n", json!(all)));
     }
-    print(&match (&arguments.name, &shown[..]) {
-        (Some(_), [material]) => one(material),
-        _ => table(&shown),
+    print(&match (&arguments.name, &solids[..], &oils[..]) {
+        (Some(_), [material], _) => one(material),
+        (Some(_), _, [oil]) => one_oil(oil),
+        _ => tables(&solids, &oils),
     })
 }
 
@@ -33,20 +39,13 @@ const HEADS: [(&str, usize); 8] = [
     ("resistivity", 13),
 ];
 
-fn table(materials: &[&NamedMaterial]) -> String {
+/// The heads of the table of lubricants, with the width of each column.
+const OIL_HEADS: [(&str, usize); 5] =
+    [("", 16), ("40 °C", 10), ("100 °C", 9), ("pressure-viscosity", 20), ("density", 9)];
+
+fn tables(materials: &[&NamedMaterial], oils: &[&NamedOil]) -> String {
     let mut text = String::new();
-    let mut row = |cells: [String; 8]| {
-        let line: String = cells
-            .iter()
-            .zip(HEADS)
-            .enumerate()
-            .map(|(column, (cell, (_, width)))| match column {
-                0 => format!("{cell:<width$}"),
-                _ => format!("{cell:>width$}"),
-            })
-            .collect();
-        let _ = writeln!(text, "{}", line.trim_end());
-    };
+    let mut row = |cells| write_row(&mut text, HEADS, cells);
     row(HEADS.map(|(head, _)| head.to_owned()));
     row(["", "GPa", "", "GPa", "W/(m K)", "J/(kg K)", "kg/m³", "nΩ m"].map(str::to_owned));
     for material in materials {
@@ -64,7 +63,26 @@ fn table(materials: &[&NamedMaterial]) -> String {
             scaled(material.resistivity, 1e9),
         ]);
     }
-    text + "\nAt room temperature. `asperity materials NAME` prints the grade and the source.\n"
+    text += "\nLubricants\n";
+    let mut row = |cells| write_row(&mut text, OIL_HEADS, cells);
+    row(OIL_HEADS.map(|(head, _)| head.to_owned()));
+    row(["", "mPa s", "mPa s", "1/GPa", "kg/m³"].map(str::to_owned));
+    for oil in oils {
+        let [warm, hot] = oil.viscosity.map(|viscosity| format_number(1e3 * viscosity));
+        let coefficient = format_number(1e9 * oil.pressure_viscosity);
+        row([oil.name.to_owned(), warm, hot, coefficient, format_number(oil.density)]);
+    }
+    text + "\nMaterials at room temperature. Pressure-viscosity coefficients at 40 °C, densities of lubricants at 15 °C.\n\
+            `asperity materials NAME` prints the grade and the source.\n"
+}
+
+/// Appends a row of a table: the first column to the left, the others to the right.
+fn write_row<const N: usize>(text: &mut String, heads: [(&str, usize); N], cells: [String; N]) {
+    let mut line = String::new();
+    for (column, (cell, (_, width))) in cells.iter().zip(heads).enumerate() {
+        let _ = if column == 0 { write!(line, "{cell:<width$}") } else { write!(line, "{cell:>width$}") };
+    }
+    let _ = writeln!(text, "{}", line.trim_end());
 }
 
 fn one(material: &NamedMaterial) -> String {
@@ -83,6 +101,23 @@ fn one(material: &NamedMaterial) -> String {
         if let Some(value) = value {
             let _ = writeln!(text, "{name:<14} {value}");
         }
+    }
+    text
+}
+
+fn one_oil(oil: &NamedOil) -> String {
+    let viscosity = |node: usize| units::format(oil.viscosity[node], Dimension::Viscosity);
+    let [least, most] = oil.temperatures.map(|kelvin| format_number(kelvin - CELSIUS));
+    let mut text = format!("{}: {}\n\n", oil.name, oil.about);
+    for (name, value) in [
+        ("viscosity", format!("{} at 40 °C, {} at 100 °C", viscosity(0), viscosity(1))),
+        ("pressure_viscosity", format!("{} 1/GPa at 40 °C", format_number(1e9 * oil.pressure_viscosity))),
+        ("law", oil.law.word().to_owned()),
+        ("density", format!("{} at 15 °C", units::format(oil.density, Dimension::Density))),
+        ("temperature", format!("{least} °C … {most} °C")),
+        ("source", oil.source.to_owned()),
+    ] {
+        let _ = writeln!(text, "{name:<18} {value}");
     }
     text
 }

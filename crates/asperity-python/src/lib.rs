@@ -44,7 +44,7 @@ mod _core {
     #[pymodule_export]
     use super::passes::{CorePasses, run};
     #[pymodule_export]
-    use super::reference::{closed_form, compliances, named_materials};
+    use super::reference::{closed_form, compliances, named_materials, named_oils};
     #[pymodule_export]
     use super::results::{CoreResults, unit_of_column};
     #[pymodule_export]

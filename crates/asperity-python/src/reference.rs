@@ -1,5 +1,6 @@
 //! Closed forms: one table of all questions.
 
+use asperity::lubrication::OILS;
 use asperity::material::{Coating, Compliances, MATERIALS, Material};
 use asperity::motion::Watch;
 use asperity::ndarray::{Array2, s};
@@ -239,6 +240,12 @@ pub(crate) fn compliances(py: Python<'_>, lower: Constants, upper: Constants) ->
 #[pyfunction]
 pub(crate) fn named_materials(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
     record(py, &MATERIALS)
+}
+
+/// Returns the lubricants that are known by name, each as a dictionary of its constants.
+#[pyfunction]
+pub(crate) fn named_oils(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+    record(py, &OILS)
 }
 
 /// Returns Dundurs' β, friction, stick ratio and stiffening of the coupled punches.

@@ -27,7 +27,7 @@
 //!
 //! examples(): JSON [{name, about, files: [string]}]             the examples of `asperity example`
 //! example(name: string): string                                 writes its files into the folder `name`; returns the name of its case file
-//! materials(): JSON [{name, about, young, poisson, hardness, conductivity, …, source}]     as `asperity materials --json`
+//! materials(): JSON [{name, about, young, poisson, hardness, conductivity, …, source}]     as the solids of `asperity materials --json`
 //! read_case(text: string): JSON                                 the tables of a text of TOML; an infinite number is the text "inf"
 //! write_case(tables: JSON): string                              the text of TOML of these tables; "inf" becomes a number
 //! commands(case: string): JSON {shell: string, python: string}  lines that compute the case file of this name elsewhere

@@ -27,6 +27,8 @@ pub enum Dimension {
     VolumePerWork,
     /// Removal rate per pressure and distance slid, 1/(Pa m).
     RemovalRate,
+    /// Relative rise per pressure, such as that of a viscosity, 1/Pa.
+    PerPressure,
     /// Kelvins; degrees Celsius are also read.
     Temperature,
     /// Watts per metre and kelvin.
@@ -170,6 +172,9 @@ fn times(mantissa: &str, factor: f64) -> Option<(i128, i32)> {
 /// Unit in which volumes per load and distance are written.
 const MM3_PER_NM: &str = "mm³/(N m)";
 
+/// The unit in which a rise per pressure is written.
+const PER_GPA: &str = "1/GPa";
+
 /// 0 °C in kelvins.
 pub const CELSIUS: f64 = 273.15;
 
@@ -219,6 +224,9 @@ pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String 
     }
     if dimension == Dimension::VolumePerWork {
         return format!("{:e} {MM3_PER_NM}", round(value * 1e9, digits));
+    }
+    if dimension == Dimension::PerPressure {
+        return format!("{} {PER_GPA}", format_number_digits(value * 1e9, digits));
     }
     let Scale { base, power, .. } = dimension.scale();
     let suffix = base.suffix();
@@ -307,6 +315,7 @@ impl Dimension {
             Self::Stiffness => "a stiffness",
             Self::VolumePerWork => "a volume per load and distance",
             Self::RemovalRate => "a rate per pressure and distance",
+            Self::PerPressure => "a rise per pressure",
             Self::Temperature => "a temperature",
             Self::Conductivity => "a thermal conductivity",
             Self::ThermalInsulance => "a thermal resistance of an area",
@@ -345,6 +354,7 @@ impl Dimension {
             Self::Stiffness => "4 MN/m",
             Self::VolumePerWork => "1e-7 mm3/(N m)",
             Self::RemovalRate => "1e-11 1/(Pa m)",
+            Self::PerPressure => "20 1/GPa",
             Self::Temperature => "100 °C",
             Self::Conductivity => "46 W/(m K)",
             Self::ThermalInsulance => "1e-8 m2 K/W",
@@ -384,7 +394,7 @@ impl Dimension {
     }
 
     /// All dimensions.
-    pub const ALL: [Self; 32] = [
+    pub const ALL: [Self; 33] = [
         Self::Length,
         Self::Area,
         Self::Volume,
@@ -397,6 +407,7 @@ impl Dimension {
         Self::Stiffness,
         Self::VolumePerWork,
         Self::RemovalRate,
+        Self::PerPressure,
         Self::Temperature,
         Self::Conductivity,
         Self::ThermalInsulance,
@@ -434,6 +445,7 @@ impl Dimension {
             Self::Stiffness => scale(Base::Of("N/m"), 1, 12),
             Self::VolumePerWork => scale(Base::Of("1/Pa"), 1, 0),
             Self::RemovalRate => scale(Base::Of("1/(Pa m)"), 1, 0),
+            Self::PerPressure => scale(Base::Of("1/Pa"), 1, 0),
             Self::Temperature => scale(Base::Of("K"), 1, 0),
             Self::Conductivity => scale(Base::Of("W/(m K)"), 1, 3),
             Self::ThermalInsulance => scale(Base::Of("m² K/W"), 1, 0),
@@ -465,6 +477,9 @@ impl Dimension {
         if self == Self::VolumePerWork {
             return Multiple { factor: 1e-9, symbol: MM3_PER_NM.to_owned() };
         }
+        if self == Self::PerPressure {
+            return Multiple { factor: 1e-9, symbol: PER_GPA.to_owned() };
+        }
         let Scale { base, power, .. } = self.scale();
         let (prefix, exponent) = self.prefix(round(value, 4)).unwrap_or(("", 0));
         let symbol = format!("{prefix}{}{}", base.symbol(), base.suffix());
@@ -488,6 +503,7 @@ impl Dimension {
             self,
             Self::VolumePerWork
                 | Self::RemovalRate
+                | Self::PerPressure
                 | Self::Temperature
                 | Self::Conductivity
                 | Self::ThermalInsulance
@@ -536,6 +552,19 @@ impl Dimension {
                 ("m3/J", 0, 1.0),
             ],
             Self::RemovalRate => &[("1/Pa/m", 0, 1.0)],
+            Self::PerPressure => &[
+                ("1/GPa", -9, 1.0),
+                ("1/MPa", -6, 1.0),
+                ("/Pa", 0, 1.0),
+                ("/GPa", -9, 1.0),
+                ("/MPa", -6, 1.0),
+                ("Pa^-1", 0, 1.0),
+                ("GPa^-1", -9, 1.0),
+                ("m2/N", 0, 1.0),
+                ("mm2/N", -6, 1.0),
+                ("m²/N", 0, 1.0),
+                ("mm²/N", -6, 1.0),
+            ],
             Self::Conductivity => &[
                 ("W/m/K", 0, 1.0),
                 ("W/mK", 0, 1.0),

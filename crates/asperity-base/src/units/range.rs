@@ -38,6 +38,7 @@ impl Dimension {
             Self::Stiffness => (1e-21, 1e21, "N/m"),
             Self::VolumePerWork => (1e-30, 1e-3, "1/Pa"),
             Self::RemovalRate => (1e-30, 1e9, "1/(Pa m)"),
+            Self::PerPressure => (1e-15, 1e-3, "1/Pa"),
             Self::Temperature => (1e-3, 1e5, "K"),
             Self::Conductivity => (1e-6, 1e6, "W/(m K)"),
             Self::ThermalInsulance => (1e-30, 1e9, "m² K/W"),

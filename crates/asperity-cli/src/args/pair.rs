@@ -1,11 +1,13 @@
 //! The arguments of a contact of two files, and of a new case file.
 
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
+use asperity::lubrication::{NamedOil, OILS};
 use asperity::material;
 use asperity::units::{self, Dimension};
-use clap::Args;
-use clap::builder::PossibleValuesParser;
+use clap::builder::{PossibleValue, TypedValueParser};
+use clap::{Arg, Args, Command};
 
 use super::ReadingArguments;
 use super::values::{quantity, threads};
@@ -151,10 +153,14 @@ pub(crate) fn pair_of_materials(text: &str) -> Result<Both, String> {
         if material::NAMES.contains(&name) {
             Ok(())
         } else {
-            let near = material::NamedMaterial::near(name).map_or(String::new(), |hint| format!(" ({hint})"));
-            Err(format!("no material `{name}`{near}; `asperity materials` lists them"))
+            Err(no_material(name, material::NamedMaterial::near(name)))
         }
     })
+}
+
+fn no_material(name: &str, near: Option<String>) -> String {
+    let near = near.map_or(String::new(), |hint| format!(" ({hint})"));
+    format!("no material `{name}`{near}; `asperity materials` lists them")
 }
 
 fn pair_of_hardnesses(text: &str) -> Result<Both, String> {
@@ -186,19 +192,44 @@ pub(crate) fn load(text: &str) -> Result<Load, String> {
     }
 }
 
-/// Print the materials that cases and commands know by name
+/// Print the materials and lubricants that are known by name
 ///
-/// Young's modulus, Poisson's ratio, hardness where the grade determines it, and the constants of heat and
-/// current, each with its source.
+/// Materials: Young's modulus, Poisson's ratio, hardness where the grade determines it, and the constants of heat
+/// and current. Lubricants: viscosity at 40 °C and 100 °C, pressure-viscosity coefficient and density. Each has a
+/// source.
 #[derive(Debug, Args)]
-#[command(after_help = "Example:\n  asperity materials steel")]
+#[command(after_help = "Examples:\n  asperity materials steel\n  asperity materials \"ISO VG 46\"")]
 pub(crate) struct Materials {
-    /// Material whose source is printed, too
-    #[arg(value_parser = PossibleValuesParser::new(material::NAMES), hide_possible_values = true)]
+    /// Material or lubricant whose source is printed, too
+    #[arg(value_parser = MaterialParser, hide_possible_values = true)]
     pub(crate) name: Option<String>,
     /// Print JSON, in SI
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// Reads the name of a material or of a lubricant.
+#[derive(Debug, Clone)]
+struct MaterialParser;
+
+impl TypedValueParser for MaterialParser {
+    type Value = String;
+
+    fn parse_ref(&self, command: &Command, arg: Option<&Arg>, value: &OsStr) -> Result<String, clap::Error> {
+        let known = |name: &str| {
+            if material::NAMES.contains(&name) || NamedOil::from_name(name).is_some() {
+                return Ok(name.to_owned());
+            }
+            Err(no_material(name, NamedOil::near(name).or_else(|| material::NamedMaterial::near(name))))
+        };
+        known.parse_ref(command, arg, value)
+    }
+
+    /// Returns the names that a shell completes: those without a space.
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let oils = OILS.iter().map(|oil| oil.name).filter(|name| !name.contains(' '));
+        Some(Box::new(material::NAMES.iter().copied().chain(oils).map(PossibleValue::new)))
+    }
 }
 
 #[cfg(test)]

@@ -125,9 +125,17 @@ fn five_answers_make_a_case() {
 fn materials_completions_and_the_manual_are_printed() {
     let folder = TempDir::new().unwrap();
     let at = |arguments: &str| asperity(&folder, arguments);
-    assert!(json(&at("materials --json")).as_array().unwrap().len() >= 20);
+    let all = json(&at("materials --json"));
+    let (oils, solids): (Vec<_>, Vec<_>) =
+        all.as_array().unwrap().iter().partition(|one| one.get("viscosity").is_some());
+    assert!(solids.len() >= 20 && solids.iter().all(|solid| solid["young"].as_f64().is_some()), "{all}");
+    assert!(oils.len() >= 10 && oils.iter().all(|oil| oil["viscosity"][1].as_f64().is_some()), "{all}");
     assert_has(&ok(&at("materials")), "bearing-steel");
+    assert_has(&ok(&at("materials")), "ISO VG 46");
     assert_has(&ok(&at("materials steel")), "EN 1993-1-1");
+    let oil = ok(&command(&folder, "materials").arg("ISO VG 46").output().unwrap());
+    assert_has(&oil, "ISO 3448");
+    assert_has(&refused(&at("materials vg46")), "did you mean `ISO VG 46`?");
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         assert_has(&ok(&at(&format!("completions {shell}"))), "asperity");
     }

@@ -11,6 +11,9 @@ use crate::operator::{Boundary, Operator};
 use crate::solver::Control;
 use crate::units::{Dimension, Metre, Pascal};
 
+/// Names of the fields of a film.
+const PARTS: [&str; 3] = ["oil_pressure", "solid_pressure", "cavity"];
+
 /// Unit of film in the residuals, in boundary films.
 const LENGTH: f64 = 50.0;
 
@@ -97,6 +100,24 @@ impl Film {
     pub fn dry(solid_pressure: Field, approach: Metre) -> Self {
         let zeros = Field::zeros(solid_pressure.raw_dim());
         Self { oil_pressure: zeros.clone(), solid_pressure, cavity: zeros, approach }
+    }
+
+    /// The fields with their names and units.
+    pub fn parts(&self) -> [(&'static str, &'static str, &Field); 3] {
+        [
+            (PARTS[0], "Pa", &self.oil_pressure),
+            (PARTS[1], "Pa", &self.solid_pressure),
+            (PARTS[2], "1", &self.cavity),
+        ]
+    }
+
+    /// Creates a film from its fields by their names.
+    ///
+    /// # Errors
+    /// Those of `part`.
+    pub(crate) fn from_parts(part: impl Fn(&str) -> Result<Field>, approach: Metre) -> Result<Self> {
+        let [oil_pressure, solid_pressure, cavity] = [part(PARTS[0])?, part(PARTS[1])?, part(PARTS[2])?];
+        Ok(Self { oil_pressure, solid_pressure, cavity, approach })
     }
 
     fn state(&self) -> State {

@@ -43,13 +43,12 @@ pub struct FilmForces {
     /// film H that is carried through a face. Half of it brakes each body.
     pub rolling: Newton,
     /// The horizontal component of the pressure of the oil on the slopes of the film, which the two halves of the
-    /// rolling friction balance.
+    /// rolling friction balance if the pressures at the ends are 0.
     pub slopes: Newton,
 }
 
 impl FilmForces {
-    /// Computes the forces of a solution between surfaces whose speeds differ by `sliding` ≥ 0, m/s. The pressures
-    /// at the ends of the film are 0.
+    /// Computes the forces of a solution between surfaces whose speeds differ by `sliding` ≥ 0, m/s.
     pub fn new(
         problem: &FilmProblem<'_>,
         solution: &FilmSolution,
@@ -69,8 +68,9 @@ impl FilmForces {
             (1.0 - cavity[k]) * shear.stress(viscosity, sliding / thickness, p[k])
         };
         let carried = problem.flow(*grid, boundary).entrained_films(p, cavity, h);
-        let behind = |face: usize| face.checked_sub(ny).map_or(0.0, |k| p[k]);
-        let ahead = |face: usize| p.get(face).copied().unwrap_or(0.0);
+        let [inlet, outlet] = problem.ends;
+        let behind = |face: usize| face.checked_sub(ny).map_or(inlet, |k| p[k]);
+        let ahead = |face: usize| p.get(face).copied().unwrap_or(outlet);
         let rolling: f64 = carried.iter().enumerate().map(|(n, film)| film * (ahead(n) - behind(n))).sum();
         let slopes: f64 = p.iter().enumerate().map(|(k, p)| p * (carried[k] - carried[k + ny])).sum();
         Self {

@@ -27,7 +27,7 @@
 //!     ends: [0.0; 2],
 //!     step: None,
 //! };
-//! let mut speeds = FilmSpeeds::new(&mut operator, problem, FilmParams::default())?;
+//! let mut speeds = FilmSpeeds::new(&mut operator, &problem, FilmParams::default())?;
 //! for (speed, solids, friction) in [(1e-4, 0.9..=1.0, 0.11..=0.12), (1.0, 0.0..=0.0, 0.03..=0.06)] {
 //!     let film = speeds.film_at(&mut operator, speed)?.solution;
 //!     let problem = FilmProblem { speed, ..problem };
@@ -39,18 +39,24 @@
 //! # Ok::<(), asperity_contact::Error>(())
 //! ```
 
+mod between;
 mod film;
 mod flow;
 mod forces;
 mod fronts;
+mod named;
 mod near;
 mod newton;
 mod oil;
 mod speeds;
 mod state;
+mod zone;
 
+pub use between::Lubrication;
 pub use film::{Film, FilmParams, FilmProblem, FilmSolution, solve_film};
 pub use flow::OilStep;
 pub use forces::{FilmForces, Shear};
+pub use named::{NamedOil, OIL_NAMES, OILS};
 pub use oil::{CompressedOil, Oil, ViscosityLaw};
-pub use speeds::{FilmAtSpeed, FilmSpeeds};
+pub use speeds::{FilmAtSpeed, FilmSpeeds, SolvedFilm};
+pub use zone::ContactZone;

@@ -2,6 +2,7 @@
 
 use crate::error::{Result, check, check_in};
 use crate::units::{Dimension, Pascal, PascalSecond};
+use asperity_base::choice::choice;
 
 /// How the viscosity of an oil rises with pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -15,6 +16,8 @@ pub enum ViscosityLaw {
     #[default]
     Roelands,
 }
+
+choice!(ViscosityLaw: "constant" => Constant, "barus" => Barus, "roelands" => Roelands);
 
 /// An oil at one temperature.
 ///

@@ -4,16 +4,21 @@ use std::borrow::Cow;
 
 use super::film::{Film, FilmParams, FilmProblem, FilmSolution, solve_film};
 use super::flow::OilStep;
+use super::oil::Oil;
 use crate::error::{Error, Result, check};
 use crate::grid::{Field, Grid, coarse_means};
 use crate::operator::Operator;
 use crate::solver::{Bounds, Control, Params, solve_normal};
+use crate::units::{Metre, Pascal};
 
 /// Fewest cells along the shorter side of a grid whose films are solved for on half as many first.
 const HALVED: usize = 32;
 
 /// Largest ratio of two speeds at which one solution is tried as the start of the other.
 const NEAR: f64 = 10.0;
+
+/// Share of the solids in the load from which on a film starts from the dry contact before speeds between.
+const NEAR_DRY: f64 = 0.1;
 
 /// Least logarithm of the ratio of two speeds on the way from one to another.
 const LEAST_STRIDE: f64 = 0.05;
@@ -32,31 +37,35 @@ const THICKNESSES: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 
 /// The films of two bodies at the speeds of a Stribeck curve, in any order.
 ///
-/// Each film is solved for on half as many cells along both axes first. It starts from the film at the nearest speed,
+/// Each film is solved for on half as many cells along both axes first. It starts from the film at the speed before,
 /// and if that is full, with the change of the coarse one. If it fails, speeds between are solved for. The first film
 /// starts from the coarse one, or from the dry contact, or from a full film under the pressure of the dry contact. At
 /// last the film is followed in time.
-pub struct FilmSpeeds<'a> {
-    /// The problem on the finest grid.
-    problem: FilmProblem<'a>,
+pub struct FilmSpeeds {
+    gap: Field,
+    oil: Oil,
+    boundary_film: Metre,
+    control: Control,
+    ends: [Pascal; 2],
     params: FilmParams,
-    gap: Cow<'a, Field>,
     dry: Film,
-    solved: Vec<Solved>,
-    half: Option<Box<Half<'a>>>,
+    last: Option<SolvedFilm>,
+    half: Option<Box<Half>>,
 }
 
-/// A film that was solved for, and the one on half as many cells.
-struct Solved {
-    speed: f64,
-    film: Film,
-    half: Option<Film>,
+/// A film that was solved for, at its speed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolvedFilm {
+    /// Mean speed of both surfaces, m/s.
+    pub speed: f64,
+    /// The film.
+    pub film: Film,
 }
 
 /// The same films on half as many cells.
-struct Half<'a> {
+struct Half {
     operator: Box<dyn Operator>,
-    films: FilmSpeeds<'a>,
+    films: FilmSpeeds,
 }
 
 /// The film at a speed.
@@ -70,7 +79,7 @@ pub struct FilmAtSpeed {
     pub half: Option<(Grid, FilmSolution)>,
 }
 
-impl<'a> FilmSpeeds<'a> {
+impl FilmSpeeds {
     /// Solves for the dry contact, from which films start. The films are steady: the speed of the problem and its
     /// step of time do not matter.
     ///
@@ -79,29 +88,37 @@ impl<'a> FilmSpeeds<'a> {
     ///
     /// # Panics
     /// If the gap has another shape than the operator's grid.
-    pub fn new(operator: &mut dyn Operator, problem: FilmProblem<'a>, params: FilmParams) -> Result<Self> {
-        Self::on_grid(operator, problem, params, Cow::Borrowed(problem.gap))
-    }
-
-    fn on_grid(
-        operator: &mut dyn Operator,
-        problem: FilmProblem<'a>,
-        params: FilmParams,
-        gap: Cow<'a, Field>,
-    ) -> Result<Self> {
-        let above = gap.mapv(|gap| gap - problem.boundary_film);
-        let dry =
-            solve_normal(operator, &above, &Bounds::ELASTIC, problem.control, None, &Params::default())?;
+    pub fn new(operator: &mut dyn Operator, problem: &FilmProblem<'_>, params: FilmParams) -> Result<Self> {
+        let FilmProblem { gap, oil, boundary_film, control, ends, .. } = *problem;
+        let above = gap.mapv(|gap| gap - boundary_film);
+        let dry = solve_normal(operator, &above, &Bounds::ELASTIC, control, None, &Params::default())?;
         let half = if operator.grid().shape.iter().all(|cells| *cells >= HALVED) {
             let mut operator = operator.coarse();
-            let gap = Cow::Owned(coarse_means(&gap));
-            let films = Self::on_grid(&mut *operator, problem, params, gap)?;
+            let gap = coarse_means(gap);
+            let films = Self::new(&mut *operator, &FilmProblem { gap: &gap, ..*problem }, params)?;
             Some(Box::new(Half { operator, films }))
         } else {
             None
         };
         let dry = Film::dry(dry.pressure, dry.approach);
-        Ok(Self { problem, params, gap, dry, solved: Vec::new(), half })
+        Ok(Self { gap: gap.clone(), oil, boundary_film, control, ends, params, dry, last: None, half })
+    }
+
+    /// Returns the last films on all grids, the finest first: with [`go_on`](Self::go_on), the next film has the
+    /// same bits as without a break.
+    pub fn last_films(&self) -> Vec<SolvedFilm> {
+        let coarser = self.half.iter().flat_map(|half| half.films.last_films());
+        self.last.iter().cloned().chain(coarser).collect()
+    }
+
+    /// Goes on from the [`last_films`](Self::last_films) of the same bodies.
+    pub fn go_on(&mut self, films: Vec<SolvedFilm>) {
+        let mut films = films.into_iter().peekable();
+        let own = |film: &SolvedFilm| film.film.cavity.dim() == self.gap.dim();
+        self.last = films.next_if(own);
+        if let Some(half) = &mut self.half {
+            half.films.go_on(films.collect());
+        }
     }
 
     /// Returns the dry contact, whose solids keep the boundary film between them.
@@ -109,13 +126,18 @@ impl<'a> FilmSpeeds<'a> {
         &self.dry
     }
 
-    /// Solves for the film at a speed > 0.
+    /// Solves for the film at a speed > 0, or at rest between ends with a pressure.
     ///
     /// # Errors
     /// As [`solve_film`]; [`Error::OutOfRange`] for a speed that is not positive, [`Error::NotConverged`] if no way
     /// leads to the film.
     pub fn film_at(&mut self, operator: &mut dyn Operator, speed: f64) -> Result<FilmAtSpeed> {
-        check("speed", speed, speed > 0.0 && speed.is_finite(), "above 0 m/s")?;
+        let is_driven = speed > 0.0 || speed == 0.0 && self.ends != [0.0; 2];
+        check("speed", speed, is_driven && speed.is_finite(), "above 0 m/s")?;
+        // The coarse film at the speed of the last one.
+        let before = self.last.as_ref().zip(self.half.as_ref()).and_then(|(last, half)| {
+            half.films.last.as_ref().filter(|half| half.speed == last.speed).map(|half| half.film.clone())
+        });
         let half = match &mut self.half {
             Some(half) => match half.films.film_at(&mut *half.operator, speed) {
                 Err(Error::NotConverged { .. }) => None,
@@ -124,8 +146,8 @@ impl<'a> FilmSpeeds<'a> {
             None => None,
         };
         let coarse = half.as_ref().map(|(_, half)| half.film.clone());
-        let solution = self.first_found(operator, speed, coarse.as_ref())?;
-        self.solved.push(Solved { speed, film: solution.film.clone(), half: coarse });
+        let solution = self.first_found(operator, speed, before.as_ref(), coarse.as_ref())?;
+        self.last = Some(SolvedFilm { speed, film: solution.film.clone() });
         Ok(FilmAtSpeed { solution, half })
     }
 
@@ -133,38 +155,49 @@ impl<'a> FilmSpeeds<'a> {
         &self,
         operator: &mut dyn Operator,
         speed: f64,
+        before: Option<&Film>,
         half: Option<&Film>,
     ) -> Result<FilmSolution> {
-        let ratio = |other: f64| (other / speed).max(speed / other);
-        let nearest = self.solved.iter().min_by(|a, b| ratio(a.speed).total_cmp(&ratio(b.speed)));
-        let nearest = nearest.filter(|nearest| ratio(nearest.speed) <= NEAR);
-        for start in self.known(nearest, half) {
+        let is_near = |last: &&SolvedFilm| (last.speed / speed).max(speed / last.speed) <= NEAR;
+        let nearest = self.last.as_ref().filter(is_near);
+        for start in self.known(nearest, before, half) {
             if let Some(solution) = self.tried(operator, speed, &start)? {
                 return Ok(solution);
             }
+        }
+        // Where solids bear much, the dry contact is nearer than any speed before.
+        let is_near_dry = half.is_some_and(|half| half.solid_share() > NEAR_DRY);
+        let far = |operator: &mut dyn Operator| -> Result<Option<FilmSolution>> {
+            for start in self.unknown(operator, speed)? {
+                if let Some(solution) = self.tried(operator, speed, &start)? {
+                    return Ok(Some(solution));
+                }
+            }
+            Ok(None)
+        };
+        if is_near_dry && let Some(solution) = far(operator)? {
+            return Ok(solution);
         }
         if let Some(nearest) = nearest
             && let Some(solution) = self.approached(operator, nearest, speed)?
         {
             return Ok(solution);
         }
-        for start in self.unknown(operator, speed)? {
-            if let Some(solution) = self.tried(operator, speed, &start)? {
-                return Ok(solution);
-            }
+        if !is_near_dry && let Some(solution) = far(operator)? {
+            return Ok(solution);
         }
         self.followed(operator, speed)
     }
 
     /// Returns what the film may start from, the best first. Where the film is full, the edge of its cavity moves by
-    /// many cells from speed to speed, which the film on half as many cells knows. Where solids touch, the film at the
-    /// nearest speed knows more.
-    fn known(&self, nearest: Option<&Solved>, half: Option<&Film>) -> Vec<Film> {
-        let Some(Solved { film, half: before, .. }) = nearest else {
+    /// many cells from speed to speed, which the films on half as many cells know, now and `before`. Where solids touch,
+    /// the film at the speed before knows more.
+    fn known(&self, nearest: Option<&SolvedFilm>, before: Option<&Film>, half: Option<&Film>) -> Vec<Film> {
+        let Some(SolvedFilm { film, .. }) = nearest else {
             return half.iter().map(|half| half.on_twice(self.gap.dim())).collect();
         };
         let is_full = half.is_some_and(|half| half.solid_pressure.sum() == 0.0);
-        let changed = before.as_ref().zip(half).map(|(before, half)| film.changed_as(before, half));
+        let changed = before.zip(half).map(|(before, half)| film.changed_as(before, half));
         let mut starts: Vec<Film> = changed.into_iter().chain([film.clone()]).collect();
         if !is_full {
             starts.reverse();
@@ -176,7 +209,7 @@ impl<'a> FilmSpeeds<'a> {
     fn approached(
         &self,
         operator: &mut dyn Operator,
-        from: &Solved,
+        from: &SolvedFilm,
         speed: f64,
     ) -> Result<Option<FilmSolution>> {
         let (mut reached, mut film) = (from.speed, Cow::Borrowed(&from.film));
@@ -197,7 +230,10 @@ impl<'a> FilmSpeeds<'a> {
     /// succeed.
     fn followed(&self, operator: &mut dyn Operator, speed: f64) -> Result<FilmSolution> {
         let problem = self.problem(speed);
-        let transit = operator.grid().pitch[0] / speed;
+        // At rest the pressure at the ends drives the oil.
+        let driven = (10.0 * self.boundary_film).powi(2) * self.ends[0].max(self.ends[1])
+            / (12.0 * self.oil.viscosity * operator.grid().extent()[0]);
+        let transit = operator.grid().pitch[0] / speed.max(driven);
         let mut duration = transit;
         let mut film = self.dry.clone();
         let mut oil = problem.oil_in(operator, &film);
@@ -220,8 +256,11 @@ impl<'a> FilmSpeeds<'a> {
         solve_film(operator, &problem, &film, &self.params)
     }
 
-    fn problem(&self, speed: f64) -> FilmProblem<'_> {
-        FilmProblem { gap: &self.gap, speed, step: None, ..self.problem }
+    /// Returns the problem at a speed.
+    pub fn problem(&self, speed: f64) -> FilmProblem<'_> {
+        let Self { gap, oil, boundary_film, control, ends, .. } = self;
+        let (oil, boundary_film, control, ends) = (*oil, *boundary_film, *control, *ends);
+        FilmProblem { gap, oil, speed, boundary_film, control, ends, step: None }
     }
 
     /// Returns the solution from this start; none if it does not converge.
@@ -241,7 +280,7 @@ impl<'a> FilmSpeeds<'a> {
                 oil_pressure: self.dry.solid_pressure.clone(),
                 solid_pressure: self.dry.oil_pressure.clone(),
                 cavity: self.dry.cavity.clone(),
-                approach: self.dry.approach - (thickness - 1.0) * self.problem.boundary_film,
+                approach: self.dry.approach - (thickness - 1.0) * self.boundary_film,
             };
             let norm = self.norm(operator, speed, &film)?;
             if least.as_ref().is_none_or(|(least, _)| norm < *least) {
@@ -255,7 +294,7 @@ impl<'a> FilmSpeeds<'a> {
 
     /// Returns the norm of all residuals of a film, at its own approach if one is prescribed.
     fn norm(&self, operator: &mut dyn Operator, speed: f64, film: &Film) -> Result<f64> {
-        let control = match self.problem.control {
+        let control = match self.control {
             Control::Approach(_) => Control::Approach(film.approach),
             load @ Control::Load(_) => load,
         };
@@ -264,6 +303,12 @@ impl<'a> FilmSpeeds<'a> {
 }
 
 impl Film {
+    /// Share of the solids in the load.
+    fn solid_share(&self) -> f64 {
+        let [oil, solids] = [&self.oil_pressure, &self.solid_pressure].map(|pressure| pressure.sum());
+        solids / (oil + solids)
+    }
+
     /// Returns a film that has changed as one on half as many cells did.
     fn changed_as(&self, before: &Self, after: &Self) -> Self {
         let [before, after] = [before, after].map(|film| film.on_twice(self.cavity.dim()));

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use asperity_base::Error;
 use asperity_base::beside::Beside;
 use asperity_base::units::{Dimension, format, format_number};
+use asperity_contact::lubrication::{NamedOil, OILS};
 use asperity_contact::material::{MATERIALS, NamedMaterial};
 use asperity_study::Case;
 use asperity_study::case::rules::Exclusion;
@@ -38,6 +39,7 @@ fn the_tables_of_the_documents_are_those_of_the_program() {
                     table_of_rules()
                 }
                 Some("materials") => table_of_materials(),
+                Some("oils") => table_of_oils(),
                 Some(mark) => match mark.strip_prefix("keys: ") {
                     Some(names) => {
                         let named = names.split(", ").map(|name| {
@@ -248,6 +250,19 @@ fn table_of_materials() -> String {
     let heads = "| name | grade | young | poisson | hardness | conductivity | heat_capacity | density | resistivity | source |";
     let rows: String = MATERIALS.iter().map(row).collect();
     format!("{heads}\n|---|---|---|---|---|---|---|---|---|---|\n{rows}")
+}
+
+fn table_of_oils() -> String {
+    let row = |oil: &NamedOil| {
+        let NamedOil { name, about, source, .. } = oil;
+        let [warm, hot] = oil.viscosity.map(|viscosity| format(viscosity, Dimension::Viscosity));
+        let coefficient = format_number(1e9 * oil.pressure_viscosity);
+        let density = format(oil.density, Dimension::Density);
+        format!("| `{name}` | {about} | {warm} | {hot} | {coefficient} | {density} | {source} |\n")
+    };
+    let heads = "| name | grade | viscosity at 40 °C | at 100 °C | pressure–viscosity coefficient at 40 °C, 1/GPa | density at 15 °C | source |";
+    let rows: String = OILS.iter().map(row).collect();
+    format!("{heads}\n|---|---|---|---|---|---|---|\n{rows}")
 }
 
 fn table_of_rules() -> String {
