@@ -126,7 +126,7 @@ class Contact(OfContact):
     fields: Annotated[Fields,
         "The fields `pressure`, `gap`, `displacement`, `lower`, `upper`, `plastic`. Friction adds `traction_x`, `traction_y`, "
         "`displacement_x`, `displacement_y`, `slip_x`, `slip_y` and `stick`. A map of the hardness adds `cap`. Adhesion adds "
-        "`contact`, 1 in contact and 0 elsewhere."]
+        "`contact`, 1 in contact and 0 elsewhere. An oil adds it, too, and `oil_pressure`, `solid_pressure` and `cavity`."]
     sweep: Annotated[Table,
         "A record for each point of a sweep, else empty. The numbers and fields of the contact are those of the last point."]
     increments: Annotated[Table, "A record for each increment of a loading in stages, else empty."]

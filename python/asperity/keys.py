@@ -25,6 +25,7 @@ __all__ = [
     "Film",
     "Flow",
     "Friction",
+    "Lubrication",
     "Plasticity",
     "Stage",
     "Steady",
@@ -376,6 +377,68 @@ class Steady(TypedDict, total=False):
     speeds: Sequence[Quantity]
 
 
+class Lubrication(TypedDict, total=False):
+    """Keys of ``lubrication``: an oil between the bodies, in a steady film. `oil` or `viscosity` is given, and `speed` or
+    `speeds`.
+
+    Attributes
+    ----------
+    oil : {"ISO VG 32", "ISO VG 46", "ISO VG 68", "ISO VG 100", "ISO VG 150", "ISO VG 220", "ISO VG 320", "PAO 4", "PAO 6", "PAO 40", "ester", "glycerol", "water"}
+        Oil by name, see lubricants, at the mean temperature of the bodies in [temperature]. Without it: exactly one of
+        the two.
+    viscosity : float or str
+        Viscosity at ambient pressure; viscosity > 0. Without it: exactly one of the two.
+    pressure_viscosity : float or str
+        Pressure–viscosity coefficient α, the relative rise of the viscosity with pressure at ambient pressure; rise per
+        pressure > 0. Without it: must be given with `viscosity`, but for `law = "constant"`.
+    law : {"constant", "barus", "roelands"}
+        How the viscosity rises with pressure: `"roelands"`; `"barus"`, exponentially, far too stiff above 0.3 GPa; or
+        `"constant"`. Without it: `"roelands"`, or that of `oil`.
+    compressible : bool
+        Whether the density rises with pressure, by Dowson and Higginson. Without it: true, or that of `oil`.
+    limiting_stress : float
+        Largest shear stress of the oil over its pressure, the limiting stress coefficient; number > 0. Without it: no
+        limit.
+    eyring_stress : float or str
+        Eyring's stress τ₀, above which the oil shears more easily: τ = τ₀ asinh(η Δu/h τ₀); pressure > 0. Without it:
+        Newtonian.
+    speed : float or str
+        Mean speed of both surfaces along +x, which entrains the oil: half the speed of the one that moves where the
+        other one is at rest. 0 if a pressure at an end drives it; speed ≥ 0. Without it: exactly one of the two; none
+        in a motion.
+    speeds : float or str
+        Several mean speeds, one after the other: a Stribeck curve; list of at least one speed > 0, or a table. Without
+        it: exactly one of the two; none in a motion.
+    sliding : float or str
+        Difference of the speeds of both surfaces; 0 in pure rolling; speed ≥ 0. Without it: twice the mean speed: one
+        body is at rest.
+    boundary_film : float or str
+        Film that solids that touch keep between them: a few molecules; length > 0. By default `"2 nm"`.
+    boundary_friction : float
+        Friction coefficient of the solids where they touch, with their boundary film; number ≥ 0. Without it: 0, with a
+        warning where solids bear.
+    inlet_pressure : float or str
+        Pressure of the oil at the inlet, above that around; pressure ≥ 0. By default `0`.
+    outlet_pressure : float or str
+        Pressure of the oil at the outlet, above that around; pressure ≥ 0. By default `0`.
+    """
+
+    oil: Literal["ISO VG 32", "ISO VG 46", "ISO VG 68", "ISO VG 100", "ISO VG 150", "ISO VG 220", "ISO VG 320", "PAO 4", "PAO 6", "PAO 40", "ester", "glycerol", "water"]
+    viscosity: Quantity
+    pressure_viscosity: Quantity
+    law: Literal["constant", "barus", "roelands"]
+    compressible: bool
+    limiting_stress: float
+    eyring_stress: Quantity
+    speed: Quantity
+    speeds: Quantity
+    sliding: Quantity
+    boundary_film: Quantity
+    boundary_friction: float
+    inlet_pressure: Quantity
+    outlet_pressure: Quantity
+
+
 class Thermal(TypedDict, total=False):
     """Keys of ``thermal`` of a body: what it conducts.
 
@@ -670,6 +733,10 @@ class Rest(TypedDict, total=False):
         "`unload`, `keep`."]
     subsurface: Annotated[Subsurface | None, "",
         "Stress below the surface: `to`, `layers`, `body`, `planes`, `section`, `columns`, `step`."]
+    lubrication: Annotated[Lubrication | None, "",
+        "Oil between the bodies: `oil`, `viscosity`, `pressure_viscosity`, `law`, `compressible`, `limiting_stress`, "
+        "`eyring_stress`, `speed`, `speeds`, `sliding`, `boundary_film`, `boundary_friction`, `inlet_pressure`, "
+        "`outlet_pressure`."]
     pressure_every: Annotated[int | None, "output",
         "Interval of the steps whose fields are stored, from the first one on; 0: none. A position of a pass has its pressure, a "
         "point of a sweep and an increment of bodies that attract each other have pressure and gap; the point of the largest drag "
@@ -742,6 +809,10 @@ class Motion(TypedDict, total=False):
         "`unload`, `keep`."]
     subsurface: Annotated[Subsurface | None, "",
         "Stress below the surface: `to`, `layers`, `body`, `planes`, `section`, `columns`, `step`."]
+    lubrication: Annotated[Lubrication | None, "",
+        "Oil between the bodies: `oil`, `viscosity`, `pressure_viscosity`, `law`, `compressible`, `limiting_stress`, "
+        "`eyring_stress`, `speed`, `speeds`, `sliding`, `boundary_film`, `boundary_friction`, `inlet_pressure`, "
+        "`outlet_pressure`."]
     pressure_every: Annotated[int | None, "output",
         "Interval of the steps whose fields are stored, from the first one on; 0: none. A position of a pass has its pressure, a "
         "point of a sweep and an increment of bodies that attract each other have pressure and gap; the point of the largest drag "

@@ -31,7 +31,8 @@ pub fn rows(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) 
     let stages = estimate.course.stages();
     let history = (case.friction.is_none() && stages.len() > 1).then(|| ("history", loading_path(stages)));
     let theory = estimate.closed_form.as_ref().map(|form| ("theory", closed_form::expected(form)));
-    let interface = case.interface.describe(&estimate.interface);
+    let interface =
+        case.interface.describe(&estimate.interface, estimate.lubrication.as_ref().map(|of| &of.oil));
     let stress = estimate.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
     rows.extend(theory.into_iter().chain(friction).chain(history).chain(interface));
     rows.extend(laws(case, demand));
@@ -163,7 +164,7 @@ fn swept(points: &[Point]) -> String {
 fn motion(case: &Case, estimate: &Estimate) -> String {
     let Some(motion) = case.motion else {
         return match &estimate.course {
-            Course::Sweep(points) if points[0].speed.is_some() => steady(points),
+            Course::Sweep(points) if points[0].speed.is_some() => steady(case, points),
             Course::Sweep(points) => {
                 format!("none: {}", plural(points.len(), "static contact", "static contacts"))
             }
@@ -225,17 +226,15 @@ fn friction(friction: &Friction, estimate: &Estimate) -> String {
 }
 
 /// Describes steady sliding at one speed after another.
-fn steady(points: &[Point]) -> String {
+fn steady(case: &Case, points: &[Point]) -> String {
+    let what = if case.steady.is_some() { "steady sliding" } else { "a steady film" };
     let speeds = points.iter().filter_map(|point| point.speed);
     let speeds: Vec<String> = speeds.map(|speed| units::format(speed, Dimension::Speed)).collect();
     match speeds.as_slice() {
-        [only] => format!("steady sliding at {only}"),
-        several => format!(
-            "steady sliding at {} speeds, {} to {}",
-            several.len(),
-            several[0],
-            several[several.len() - 1]
-        ),
+        [only] => format!("{what} at {only}"),
+        several => {
+            format!("{what} at {} speeds, {} to {}", several.len(), several[0], several[several.len() - 1])
+        }
     }
 }
 

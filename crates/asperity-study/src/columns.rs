@@ -8,10 +8,10 @@ use super::summary::{CONVERGED, RunningIn};
 use asperity_base::units::Dimension;
 use asperity_contact::each;
 use asperity_contact::motion::{
-    Column, CreepRecord, DragRecord, ENDINGS, FrettingRecord, HeatRecord, IncrementRecord, LawsInCycles,
-    LawsInPass, LawsInUpdate, PassDragRecord, PassPlasticRecord, PassRecord, PlasticRecord,
-    PlasticStepRecord, Presence, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, SteadyRecord,
-    StepRecord, SweepRecord, UpdateRecord,
+    Column, CreepRecord, DragRecord, ENDINGS, FilmRecord, FrettingRecord, HeatRecord, IncrementRecord,
+    LawsInCycles, LawsInPass, LawsInUpdate, LubricationRecord, PassDragRecord, PassPlasticRecord, PassRecord,
+    PlasticRecord, PlasticStepRecord, Presence, ResidualRecord, RunningRecord, ShearRecord, StaticRecord,
+    SteadyRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 use asperity_contact::with::{Capability, InterfaceNumbers, Row as _};
 
@@ -31,6 +31,8 @@ pub fn records() -> &'static [(&'static str, &'static [Column])] {
             ("SubsurfaceRecord", SubsurfaceRecord::OWN_COLUMNS),
             ("SweepRecord", SweepRecord::OWN_COLUMNS),
             ("SteadyRecord", SteadyRecord::OWN_COLUMNS),
+            ("LubricationRecord", LubricationRecord::OWN_COLUMNS),
+            ("FilmRecord", FilmRecord::OWN_COLUMNS),
             ("CreepRecord", CreepRecord::OWN_COLUMNS),
             ("DragRecord", DragRecord::OWN_COLUMNS),
             ("PassDragRecord", PassDragRecord::OWN_COLUMNS),

@@ -5,6 +5,7 @@ use web_time::Instant;
 use crate::case::Case;
 use crate::closed_form::{ClosedForm, ClosedFormRecord, ElasticContact};
 use crate::joined;
+use crate::lubrication::lubrication;
 use crate::prepare::Bodies;
 use crate::results::Writer;
 use crate::subsurface::SubsurfaceRecord;
@@ -116,7 +117,8 @@ pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
     let pair = Pair::new(lower.topography, upper.topography, materials)?
         .with_hardness([lower.hardness, upper.hardness])?;
     let interface = case.interface.between(&pair.lower_grid(), pair.modulus())?;
-    viscoelastic::relax(case, pair.with_interface(interface), &master_curves)
+    let pair = pair.with_interface(interface).with_lubrication(lubrication(case)?);
+    viscoelastic::relax(case, pair, &master_curves)
 }
 
 /// Returns the solver parameters of `case`.

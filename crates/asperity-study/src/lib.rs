@@ -97,6 +97,7 @@ pub mod io; // fields in HDF5 and for ParaView, digests, locks
 mod json; // records as JSON
 mod joined; // the steps of a run with everything found in them
 mod limit; // a limit of the model that a result exceeds
+mod lubrication; // the oil between the bodies of a case
 mod master_curve; // master curves from files of instruments
 mod viscoelastic; // viscoelastic bodies of a case
 mod limits; // the limits of the model, compared with results

@@ -98,7 +98,7 @@ pub(super) fn run_with(
     let summary = conclude(case, &writer, began, computed, warnings)?;
     // A resumed sweep of speeds solves its last point again, from the state after the one before.
     let kept = match &summary.outcome {
-        Outcome::Sweep(points) => points.last().and_then(|last| last.steady.map(|_| last.point - 1)),
+        Outcome::Sweep(points) => points.last().and_then(|last| last.speed.map(|_| last.point - 1)),
         Outcome::Static(_) | Outcome::Passes(_) => None,
     };
     writer.results().remove_states(kept)?;

@@ -17,6 +17,7 @@ use crate::surface_input::SurfaceInput;
 use crate::tables;
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, check_finite};
+use asperity_contact::lubrication::Film;
 use asperity_contact::motion::{
     Body, ChangedBodies, IncrementRecord, LoadedContact, Output, Pair, PlasticResult, PlasticVolume, Point,
     Slide, SlidingContact, SlidingOutcome, SlidingState, SlipRegime, Stage, StagedLoading, State,
@@ -223,9 +224,11 @@ impl StaticProblem<'_> {
             }
         };
         let of_bodies = review::elasto_plastic(case, pair, &contact);
-        let warnings = [limits.all(), of_bodies, review::sweep(&points, &contact)].concat();
-        let LoadedContact { solution, plastic, slip, plastic_result, .. } = contact;
-        let fields = fields(displaced(self.pair, plastic_result.as_ref()), solution, plastic, slip);
+        let of_films = with::doubts_after_points(&case.interface, &points);
+        let warnings = [limits.all(), of_bodies, review::sweep(&points, &contact), of_films].concat();
+        let LoadedContact { solution, plastic, slip, plastic_result, film, .. } = contact;
+        let mut fields = fields(displaced(self.pair, plastic_result.as_ref()), solution, plastic, slip);
+        fields.fields.extend(film.iter().flat_map(of_film));
         let result = StaticResult::of(Outcome::Sweep(points), fields);
         StaticResult { plastic_result, warnings, ..result }.seen_by(case, observers)
     }
@@ -343,7 +346,7 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
         Err(solution) => (*solution, None),
         Ok(solution) => (solution.normal, Some((solution.shear, solution.displacement, solution.stick))),
     };
-    let contact = (!pair.interface().is_hard()).then(|| normal.contact_field());
+    let contact = (!pair.touches_by_pressure()).then(|| normal.contact_field());
     // The heights are those of the prepared bodies, whatever the loading history did to them.
     drop(normal.initial_gap);
     let gap = pair.initial_gap(&pair.at_rest()) + &normal.displacement - normal.approach;
@@ -377,6 +380,11 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
         add("stick", "1", stick);
     }
     RestFields { grid, approach: normal.approach, hardness, fields }
+}
+
+/// Returns the fields of a film of oil.
+fn of_film(film: &Film) -> [NamedField; 3] {
+    film.parts().map(|(name, unit, values)| NamedField::new(name, unit, values.clone()))
 }
 
 /// Returns a `pair` whose surfaces plastic strain has displaced, if there is any.

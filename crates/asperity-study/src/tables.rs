@@ -315,6 +315,7 @@ mod tests {
             heat: None,
             interface: None,
             plastic: None,
+            film: None,
             drag: None,
             plastic_cells: 0,
             plastic_volume: 0.0,
@@ -330,6 +331,7 @@ mod tests {
             running: None,
             interface: None,
             plastic: None,
+            film: None,
             drag: None,
             pass: 1,
             approach: 1e-7,
@@ -385,7 +387,9 @@ mod tests {
             convolutions: 21.25,
             residual: 1e-7,
             interface: None,
+            speed: None,
             steady: None,
+            lubrication: None,
             plastic: None,
         }
     }

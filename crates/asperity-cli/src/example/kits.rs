@@ -8,7 +8,7 @@ pub(crate) struct ExampleFiles {
 }
 
 /// The examples, in the order of their list.
-pub(crate) const KITS: [ExampleFiles; 14] = [
+pub(crate) const KITS: [ExampleFiles; 15] = [
     ExampleFiles {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
@@ -31,6 +31,11 @@ pub(crate) const KITS: [ExampleFiles; 14] = [
             ("case.toml", include_bytes!("../../examples/fretting/case.toml")),
             ("gross-slip.toml", include_bytes!("../../examples/fretting/gross-slip.toml")),
         ],
+    },
+    ExampleFiles {
+        name: "stribeck",
+        about: "a ground ball on a lubricated disc: friction, film and contact from full film to dry",
+        files: &[("case.toml", include_bytes!("../../examples/stribeck/case.toml"))],
     },
     ExampleFiles {
         name: "viscoelastic",

@@ -92,6 +92,11 @@ impl Rows {
         if let Some(drag) = &pass.drag {
             ranked.push((Rank::Always, Cell::new("drag/W", "drag_coefficient", drag.drag_coefficient)));
         }
+        if let Some(film) = &pass.film {
+            ranked.push((Rank::Always, Cell::new("film", "mean_film", film.mean_film)));
+            ranked.push((Rank::Always, Cell::share("solids", film.solid_share)));
+            ranked.push((Rank::Always, Cell::new("T/W", "traction_coefficient", film.traction_coefficient)));
+        }
         ranked.push((Rank::Roughness, Cell::new("Sq lower", "sq_lower_interior", pass.sq_lower_interior)));
         ranked
             .push((Rank::UpperRoughness, Cell::new("Sq upper", "sq_upper_interior", pass.sq_upper_interior)));
@@ -182,11 +187,21 @@ impl Rows {
         let first = point.point == 1;
         let approach = self.approach(first, point.approach);
         let mut cells: Vec<Cell> = Vec::new();
-        if let Some(steady) = point.steady {
-            cells.push(Cell::new("speed", "speed", steady.speed));
+        if let Some(speed) = point.speed {
+            cells.push(Cell::new("speed", "speed", speed));
         }
         cells.push(Cell::new("load", "load", point.load));
-        if self.slides {
+        if let Some(film) = point.lubrication {
+            cells.extend([
+                Cell::new("film", "mean_film", film.mean_film),
+                Cell::new("central", "central_film", film.central_film),
+                Cell::new("least", "min_film", film.min_film),
+                Cell::new("λ", "lambda", film.lambda),
+                Cell::share("solids", film.solid_share),
+                Cell::new("T/W", "traction_coefficient", film.traction_coefficient),
+                Cell::new("p max", "max_pressure", point.max_pressure),
+            ]);
+        } else if self.slides {
             // The rounding error of a zero force.
             let shown = |ratio: f64| if ratio.abs() < 1e-6 { 0.0 } else { ratio };
             let traction = point.traction();
@@ -224,6 +239,10 @@ impl Rows {
             });
         }
         let above = match (first, self.slides) {
+            (true, _) if point.lubrication.is_some() => {
+                "film: mean over the contact; T/W: traction coefficient; solids: share of the load\n"
+                    .to_owned()
+            }
             (true, true) => {
                 "T/W: traction coefficient, tangential force over load; area: of the grid\n".to_owned()
             }

@@ -378,7 +378,7 @@ fn every_example_is_accepted_by_check_with_no_warning_but_that_of_a_long_stride(
     let names: Vec<_> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
     assert_eq!(
         names.join(" "),
-        "quickstart hertz friction fretting viscoelastic micropitting measured running-in rolling pull-off \
+        "quickstart hertz friction fretting stribeck viscoelastic micropitting measured running-in rolling pull-off \
          contact-challenge seal study paper"
     );
     for name in names {
@@ -402,6 +402,30 @@ fn every_example_is_accepted_by_check_with_no_warning_but_that_of_a_long_stride(
         let said = stderr(&output);
         assert!(said.starts_with(warning) && said.is_empty() == warning.is_empty(), "{name}: {said}");
         assert_refused(&folder, [(&format!("example {name}"), "exists")]);
+    }
+}
+
+#[test]
+fn the_oil_between_bodies_at_rest_and_in_motion_is_described() {
+    let folder = folder();
+    let case = |of: &str| {
+        format!(
+            "lower = {{ material = \"steel\", topography = {{ form = \"flat\", shape = [32, 32], pitch = \"15 um\" }} }}\n\
+             upper = {{ material = \"steel\", topography = {{ form = \"sphere\", radius = \"10 mm\" }} }}\n\
+             contact = {{ load = \"5 N\" }}\ntemperature = {{ bulk = \"70 °C\" }}\n{of}"
+        )
+    };
+    for (of, course) in [
+        ("lubrication = { oil = \"ISO VG 46\", speed = \"1 m/s\" }\n", "motion   a steady film at 1 m/s"),
+        (
+            "lubrication = { oil = \"ISO VG 46\" }\n\
+             motion = { strategy = \"shift\", speed_lower = \"1 m/s\", speed_upper = 0, control = \"step-load\" }\n",
+            "motion   shift, 1 pass of 32 positions",
+        ),
+    ] {
+        fs::write(folder.path().join("oil.toml"), case(of)).unwrap();
+        let page = ok(&asperity(&folder, "check oil.toml"));
+        assert_has(&page, &format!("{course} … oil      ISO VG 46, viscosity 12.34 mPa s"));
     }
 }
 

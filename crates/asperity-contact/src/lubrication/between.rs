@@ -1,4 +1,4 @@
-//! What is between two lubricated bodies.
+//! The oil between two bodies.
 
 use super::film::FilmProblem;
 use super::forces::Shear;

@@ -114,7 +114,7 @@ impl Film {
     /// Creates a film from its fields by their names.
     ///
     /// # Errors
-    /// Those of `part`.
+    /// The errors of `part`.
     pub(crate) fn from_parts(part: impl Fn(&str) -> Result<Field>, approach: Metre) -> Result<Self> {
         let [oil_pressure, solid_pressure, cavity] = [part(PARTS[0])?, part(PARTS[1])?, part(PARTS[2])?];
         Ok(Self { oil_pressure, solid_pressure, cavity, approach })

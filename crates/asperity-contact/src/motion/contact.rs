@@ -234,6 +234,7 @@ impl Contact {
             heat: None,
             interface: self.interface,
             plastic: None,
+            film: None,
             drag: None,
         }
     }

@@ -4,6 +4,7 @@ use std::any::Any;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::lubrication::Film;
 use crate::motion::pair::Pair;
 use crate::motion::record::{IncrementRecord, PassRecord, SweepRecord, UpdateRecord};
 use crate::motion::report::{CycleReport, PassReport};
@@ -47,6 +48,8 @@ pub struct Step<'a> {
     pub contact: Option<&'a Solution>,
     /// The plastic interference of earlier contacts of a loading.
     pub flattening: Option<&'a Flattening>,
+    /// The film of lubricated bodies at a point of a sweep; `None` between others.
+    pub film: Option<&'a Film>,
     /// Whether no loading follows, but unloading may.
     pub ends_loading: bool,
     /// The bodies after the step, if it may have changed them.
@@ -138,6 +141,7 @@ impl<'a> Step<'a> {
             row,
             contact: None,
             flattening: None,
+            film: None,
             ends_loading: number == of,
             changed: None,
             state: None,

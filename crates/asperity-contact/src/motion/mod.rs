@@ -18,6 +18,8 @@ mod kinematics;
 mod extrapolation;
 mod law;
 mod loading;
+mod lubricated;
+mod lubricated_passes;
 mod memory;
 mod observed;
 mod pair;
@@ -71,10 +73,10 @@ pub use plastic_volume::{PlasticResult, PlasticVolume};
 pub use press::press;
 pub use record::lost_volumes::{ENDINGS, is_volume_of_law};
 pub use record::{
-    CreepRecord, DragRecord, FrettingRecord, HeatRecord, IncrementRecord, LawsInCycles, LawsInPass,
-    LawsInUpdate, LostVolume, PassDragRecord, PassPlasticRecord, PassRecord, PlasticRecord,
-    PlasticStepRecord, Regime, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, SteadyRecord,
-    StepRecord, SweepRecord, UpdateRecord,
+    CreepRecord, DragRecord, FilmRecord, FrettingRecord, HeatRecord, IncrementRecord, LawsInCycles,
+    LawsInPass, LawsInUpdate, LostVolume, LubricationRecord, PassDragRecord, PassPlasticRecord, PassRecord,
+    PlasticRecord, PlasticStepRecord, Regime, ResidualRecord, RunningRecord, ShearRecord, StaticRecord,
+    SteadyRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 pub use report::{CycleReport, PassReport};
 pub use rim::Interior;

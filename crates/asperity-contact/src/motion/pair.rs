@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid, Placement, check_finite, flat_mut};
 use crate::kernel::{SharedResponse, response};
+use crate::lubrication::Lubrication;
 use crate::material::{Compliances, Material, plastic_share};
 use crate::math::{Bands, parallel};
 use crate::motion::body::{Body, State};
@@ -32,6 +33,7 @@ pub struct Pair {
     interface: Arc<dyn Interface>,
     /// Composite creep compliance of the lower and of the upper body; `None` if neither is viscoelastic.
     creep: Option<[Creep; 2]>,
+    lubrication: Option<Lubrication>,
 }
 
 impl Pair {
@@ -72,6 +74,7 @@ impl Pair {
             share: None,
             interface: Arc::new(HardWall),
             creep: None,
+            lubrication: None,
         })
     }
 
@@ -134,6 +137,22 @@ impl Pair {
     #[must_use]
     pub fn with_interface(self, interface: Arc<dyn Interface>) -> Self {
         Self { interface, ..self }
+    }
+
+    /// Puts an oil between the bodies. A [`sweep`](crate::motion::sweep()) of speeds solves for its films.
+    #[must_use]
+    pub fn with_lubrication(self, lubrication: Option<Lubrication>) -> Self {
+        Self { lubrication, ..self }
+    }
+
+    /// Whether cells are in contact where their pressure is above 0: between dry hard walls.
+    pub fn touches_by_pressure(&self) -> bool {
+        self.interface.is_hard() && self.lubrication.is_none()
+    }
+
+    /// The oil between the bodies; `None` between dry ones.
+    pub fn lubrication(&self) -> Option<&Lubrication> {
+        self.lubrication.as_ref()
     }
 
     /// Replaces the elastic response of the materials by another `response`.
@@ -202,6 +221,22 @@ impl Pair {
             )),
             None => Ok(()),
         }
+    }
+
+    /// Returns [`Error::Unsupported`] for lubricated bodies, of which only steady films are computed.
+    pub(super) fn check_dry(&self) -> Result<()> {
+        match self.lubrication {
+            Some(_) => Err(Error::Unsupported("lubricated bodies in other contacts than steady films")),
+            None => Ok(()),
+        }
+    }
+
+    /// Returns [`Error::Unsupported`] if lubricated bodies are viscoelastic or attract each other.
+    pub(super) fn check_lubricated(&self) -> Result<()> {
+        if self.creep.is_some() || !self.interface.is_hard() {
+            return Err(Error::Unsupported("lubricated bodies that are viscoelastic or attract each other"));
+        }
+        Ok(())
     }
 
     /// Returns [`Error::Unsupported`] if viscoelastic bodies yield or have an interface other than hard

@@ -13,7 +13,7 @@ use crate::motion::law::{self, Heat, Law, PositionData};
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::plastic_volume::ElastoPlasticPass;
-use crate::motion::record::LostVolume;
+use crate::motion::record::{FilmRecord, LostVolume};
 use crate::motion::rim::Interior;
 use crate::motion::slip::SlipRegime;
 use crate::motion::watch::{Progress, Watch};
@@ -37,6 +37,8 @@ pub(super) struct Pass {
     pub(super) plastic_pass: Option<ElastoPlasticPass>,
     /// Drag of viscoelastic bodies; `None` for others.
     pub(super) drag: Option<Drag>,
+    /// Films of lubricated bodies at the positions; empty for others.
+    pub(super) films: Vec<FilmRecord>,
 }
 
 /// Drag of viscoelastic bodies in a pass.
@@ -54,7 +56,7 @@ impl Pass {
     /// Creates a pass of a `pair` that `laws` have not changed yet.
     pub(super) fn new(contacts: Vec<Contact>, pair: Pair, laws: &[Box<dyn Law>]) -> Self {
         let lost = law::nothing_lost(laws);
-        Self { contacts, pair, taken: None, lost, plastic_pass: None, drag: None }
+        Self { contacts, pair, taken: None, lost, plastic_pass: None, drag: None, films: Vec::new() }
     }
 
     /// Mean load over the positions.

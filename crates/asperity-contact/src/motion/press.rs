@@ -58,6 +58,7 @@ impl LoadedContact {
             dissipation_error: 0.0,
             changed: None,
             plastic_result: None,
+            film: None,
         }
     }
 }

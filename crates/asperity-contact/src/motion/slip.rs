@@ -35,6 +35,7 @@ impl SlipRegime {
         shape: [usize; 2],
         device: Device,
     ) -> Result<Box<dyn ContactSolver>> {
+        pair.check_dry()?;
         let interface = pair.shared_interface();
         Ok(match self {
             Self::Frictionless => Box::new(Frictionless::new(device.operator(operators, shape), interface)),

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use crate::error::Result;
 use crate::grid::{CellValues, Field};
+use crate::lubrication::Film;
 use crate::motion::creeping;
 use crate::motion::cycle_heat::CycleHeat;
 use crate::motion::extrapolation::LastExtrapolation;
@@ -43,6 +44,8 @@ pub struct LoadedContact {
     pub changed: Option<ChangedBodies>,
     /// Plastic state below the surfaces; `None` for other than elasto-plastic bodies.
     pub plastic_result: Option<PlasticResult>,
+    /// The film between lubricated bodies; `None` between others.
+    pub film: Option<Film>,
 }
 
 /// State of a loading: everything that its next increment depends on.

@@ -103,7 +103,7 @@ impl LoadedContact {
         let drag = if found.drag.abs() > NOTHING * load { found.drag } else { 0.0 };
         // Bodies that do not touch have no drag.
         let drag_coefficient = if load > 0.0 { drag / load } else { 0.0 };
-        let steady = SteadyRecord { speed, drag, drag_coefficient, drag_power: drag * speed };
+        let steady = SteadyRecord { drag, drag_coefficient, drag_power: drag * speed };
         Ok((contact, steady))
     }
 }

@@ -1,10 +1,12 @@
 //! A static contact at several loads, each on virgin bodies.
 
 use crate::error::{Error, Result};
-use crate::grid::Field;
+use crate::grid::{Field, flat};
+use crate::lubrication::{Film, SolvedFilm};
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step, StepRow};
 use crate::motion::elasto_plastic::{PlasticPath, press_elasto_plastic};
+use crate::motion::lubricated::LubricatedBodies;
 use crate::motion::pair::Pair;
 use crate::motion::record::{PlasticStepRecord, ShearRecord, StaticRecord, SweepRecord};
 use crate::motion::slip::SlipRegime;
@@ -27,7 +29,7 @@ pub struct Point {
     pub control: Control,
     /// How the bodies slip on each other.
     pub regime: SlipRegime,
-    /// Speed of viscoelastic bodies that slide steadily.
+    /// Speed of viscoelastic bodies that slide steadily; of lubricated bodies the mean speed of both surfaces.
     pub speed: Option<MetrePerSecond>,
 }
 
@@ -39,6 +41,9 @@ pub struct SweepState {
     /// Pressure from which the next point starts, Pa; once all are finished, that from which the last one
     /// started, so that it can be solved again. `None` where points start anew.
     pub start: Option<Field>,
+    /// The last films of lubricated bodies on all grids, the finest first, from which the next ones start. As
+    /// `start`.
+    pub films: Vec<SolvedFilm>,
 }
 
 /// Presses a pair at full overlap at each of the `points`. Returns the records of all points, and the contact
@@ -47,7 +52,8 @@ pub struct SweepState {
 /// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of
 /// [`crate::motion::press`], whatever the other points are. A start from the pressures of another load costs
 /// more convolutions than one from coarser grids, if the loads differ by a factor of 1.5 or more. Steady
-/// sliding of viscoelastic bodies starts from the pressures at the speed before.
+/// sliding of viscoelastic bodies starts from the pressures at the speed before, and so do the films of lubricated
+/// bodies.
 ///
 /// # Errors
 /// [`Error::AtPoint`] with the error of [`crate::solver::solve_normal`] or [`crate::solver::solve_rolling`],
@@ -114,8 +120,19 @@ fn run(
     let (operators, gap) = facing(pair, boundary)?;
     state.records.truncate(points.len().saturating_sub(1));
     state.records.iter().for_each(|record| watch.point(record));
-    let mut sweep =
-        Sweep { pair, boundary, points, yielding, params, operators, gap, solver: None, state, last: None };
+    let mut sweep = Sweep {
+        pair,
+        boundary,
+        points,
+        yielding,
+        params,
+        operators,
+        gap,
+        solver: None,
+        lubricated: None,
+        state,
+        last: None,
+    };
     course::run(&mut sweep, watch, outputs)?;
     let last = sweep.last.ok_or(Error::Unsupported("a sweep needs at least one point"))?;
     Ok((sweep.state.records, last))
@@ -132,6 +149,8 @@ struct Sweep<'a> {
     gap: Field,
     /// The solver of the last point, with its regime.
     solver: Option<(SlipRegime, Box<dyn ContactSolver>)>,
+    /// The films of lubricated bodies, with what prescribes their load.
+    lubricated: Option<(Control, LubricatedBodies)>,
     /// The state after the last finished point.
     state: SweepState,
     /// The contact of the last finished point.
@@ -162,11 +181,36 @@ impl Sweep<'_> {
             return Ok((contact, record));
         }
         let watch = &StaticWatch::new(watch, number - 1, self.points.len(), control);
+        if let Some((lubrication, speed)) = pair.lubrication().zip(speed) {
+            let mut lubricated = match self.lubricated.take() {
+                Some((last, lubricated)) if last == control => lubricated,
+                _ => LubricatedBodies::new(
+                    pair,
+                    *lubrication,
+                    &self.operators,
+                    (gap, *boundary),
+                    control,
+                    self.state.films.clone(),
+                )?,
+            };
+            let (contact, film) = lubricated.contact_at(pair, speed)?;
+            let record = SweepRecord {
+                speed: Some(speed),
+                lubrication: Some(film),
+                ..record(*boundary, number, &contact)
+            };
+            self.lubricated = Some((control, lubricated));
+            return Ok((contact, record));
+        }
         if let Some(speed) = speed {
             let start = self.state.start.as_ref();
             let (contact, steady) =
                 LoadedContact::steady(pair, *boundary, gap, control, speed, start, params, watch)?;
-            let record = SweepRecord { steady: Some(steady), ..record(*boundary, number, &contact) };
+            let record = SweepRecord {
+                speed: Some(speed),
+                steady: Some(steady),
+                ..record(*boundary, number, &contact)
+            };
             return Ok((contact, record));
         }
         let mut solver = match self.solver.take() {
@@ -215,15 +259,20 @@ impl Course for Sweep<'_> {
             Some(_) if done + 1 < points => Some(contact.solution.normal().pressure.clone()),
             _ => self.state.start.take(),
         };
+        let films = match &self.lubricated {
+            Some((_, lubricated)) if done + 1 < points => lubricated.last_films(),
+            _ => std::mem::take(&mut self.state.films),
+        };
         let mut records = std::mem::take(&mut self.state.records);
         records.push(record);
-        Ok(Some(Solved { contact, state: SweepState { records, start } }))
+        Ok(Some(Solved { contact, state: SweepState { records, start, films } }))
     }
 
     fn report<'a>(&'a self, Solved { contact, state }: &'a Self::Solved) -> Step<'a> {
         let record = state.records.last().expect("the point just done");
         Step {
             contact: Some(contact.solution.normal()),
+            film: contact.film.as_ref(),
             state: Some(state),
             ..Step::new(record.point, self.points.len(), StepRow::Point(record))
         }
@@ -240,6 +289,15 @@ impl CourseState for SweepState {
         if let Some(start) = &self.start {
             to.field("pressure", "Pa", start);
         }
+        for (grid, SolvedFilm { speed, film }) in self.films.iter().enumerate() {
+            let name = |part: &str| format!("film_{}_{part}", grid + 1);
+            to.number(&name("speed"), *speed);
+            to.number(&name("approach"), film.approach);
+            to.count(&name("columns"), film.cavity.ncols());
+            for (part, unit, values) in film.parts() {
+                to.series(&name(part), unit, "cells", flat(values));
+            }
+        }
     }
 }
 
@@ -250,7 +308,21 @@ impl SweepState {
     /// The errors of the reader.
     pub fn restore(from: &dyn StateReader, records: Vec<SweepRecord>) -> Result<Self> {
         let start = restore_if(from, "pressure", || from.field("pressure"))?;
-        Ok(Self { records, start })
+        let mut films = Vec::new();
+        while from.holds(&format!("film_{}_speed", films.len() + 1)) {
+            let name = |part: &str| format!("film_{}_{part}", films.len() + 1);
+            let columns = from.number(&name("columns"))? as usize;
+            let part = |part: &str| {
+                let values = from.series(&name(part))?;
+                let rows = values.len() / columns.max(1);
+                Field::from_shape_vec((rows, columns), values)
+                    .map_err(|_| Error::Unsupported("films of another grid"))
+            };
+            let approach = from.number(&name("approach"))?;
+            let film = Film::from_parts(part, approach)?;
+            films.push(SolvedFilm { speed: from.number(&name("speed"))?, film });
+        }
+        Ok(Self { records, start, films })
     }
 }
 
@@ -288,7 +360,9 @@ fn record(boundary: Boundary, point: usize, contact: &LoadedContact) -> SweepRec
         convolutions: contact.record.convolutions,
         residual: contact.record.residual,
         interface: contact.record.interface,
+        speed: None,
         steady: None,
+        lubrication: None,
         plastic: None,
     }
 }

@@ -254,7 +254,7 @@ pub(super) const BALL: Case = Case {
         study("cells over 4 contact radii", &[32, 48, 72], checks, |n| {
             let ball = Ball::new(n, 2.0)?;
             let mut operator = FreeFft::new(ball.grid, MODULUS);
-            let solution = FilmSpeeds::new(&mut operator, ball.problem(), FilmParams::default())?
+            let solution = FilmSpeeds::new(&mut operator, &ball.problem(), FilmParams::default())?
                 .film_at(&mut operator, 1.0)?
                 .solution;
             let h = &solution.thickness;
@@ -289,7 +289,7 @@ pub(super) const SLOW: Case = Case {
             let wave = |k: usize| (2.0 * PI * 7.0 * k as f64 / n as f64).cos();
             ball.gap.indexed_iter_mut().for_each(|((i, j), gap)| *gap += 50e-9 * wave(i) * wave(j));
             let mut operator = FreeFft::new(ball.grid, MODULUS);
-            let mut speeds = FilmSpeeds::new(&mut operator, ball.problem(), PARAMS)?;
+            let mut speeds = FilmSpeeds::new(&mut operator, &ball.problem(), PARAMS)?;
             let solution = speeds.film_at(&mut operator, 1e-6 / slow as f64)?.solution;
             let dry = &speeds.dry().solid_pressure;
             Ok([largest(&(&solution.film.solid_pressure - dry)) / largest(dry)])

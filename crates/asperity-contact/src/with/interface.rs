@@ -9,6 +9,7 @@ use super::{Interfaces, adhesion};
 use crate::adhesion::Adhesion;
 use crate::error::Result;
 use crate::grid::{Field, Grid};
+use crate::lubrication::Oil;
 use crate::motion::{IncrementRecord, StaticRecord};
 use crate::operator::Boundary;
 use crate::solver::{HardWall, Interface, InterfaceCost, InterfacePassRecord, InterfaceRecord};
@@ -54,10 +55,14 @@ impl Interfaces {
         self.adhesion.map(|_| Adhesion::COST)
     }
 
-    /// Returns its name and its description for `asperity check`, with its `numbers`; `None` of hard walls.
-    pub fn describe(&self, numbers: &InterfaceNumbers) -> Option<(&'static str, String)> {
-        let of = |table: &adhesion::Attraction| table.describe(numbers.adhesion.as_ref());
-        self.adhesion.as_ref().map(|table| (adhesion::Attraction::NAME, of(table)))
+    /// Returns its name and its description for `asperity check`, with its `numbers` or its `oil`; `None` of hard
+    /// walls.
+    pub fn describe(&self, numbers: &InterfaceNumbers, oil: Option<&Oil>) -> Option<(&'static str, String)> {
+        let attraction = self.adhesion.as_ref();
+        let attraction =
+            attraction.map(|table| (adhesion::Attraction::NAME, table.describe(numbers.adhesion.as_ref())));
+        attraction
+            .or_else(|| self.lubrication.as_ref().zip(oil).map(|(table, oil)| ("oil", table.describe(oil))))
     }
 }
 

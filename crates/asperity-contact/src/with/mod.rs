@@ -32,6 +32,10 @@
 //! | module | table of the case | is |
 //! |---|---|---|
 //! | [`adhesion`] | `[adhesion]` | an attraction across the gap |
+//!
+//! | module | table of the case | is |
+//! |---|---|---|
+//! | [`lubrication`] | `[lubrication]` | an oil between the surfaces, whose films [`crate::lubrication`] solves for |
 
 mod capability;
 mod interface;
@@ -43,6 +47,7 @@ pub mod conductance;
 pub mod fatigue;
 pub mod film;
 pub mod flow;
+pub mod lubrication;
 pub mod plasticity;
 pub mod viscoelastic;
 pub mod wear;
@@ -120,6 +125,8 @@ macro_rules! each {
             [
                 /// Attraction between the bodies.
                 adhesion::Attraction,
+                /// Oil between the bodies.
+                lubrication::Lubricant,
             ]
             $($what)+
         }
@@ -234,6 +241,7 @@ pub fn kept() -> Vec<Kept> {
 pub fn after_passes(passes: &[PassRecord]) -> Vec<Answer> {
     let mut answers = Vec::new();
     answers.extend(viscoelastic::in_passes(passes));
+    answers.extend(lubrication::views::in_passes(passes));
     each!(law L => answers.extend(L::after_passes(passes)));
     answers
 }
@@ -245,16 +253,19 @@ pub fn after_increments(increments: &[IncrementRecord]) -> Vec<Answer> {
 
 /// Returns what the points of a sweep show beside the contact.
 pub fn after_points(points: &[SweepRecord]) -> Vec<Answer> {
-    viscoelastic::answers(points)
+    [viscoelastic::answers(points), lubrication::views::answers(points)].concat()
 }
 
 /// Returns a number that is largest for the step of a course that the answers describe: the least load of
-/// bodies that attract each other, the largest drag of a sweep of speeds. `None` where the answers describe
+/// bodies that attract each other, the largest drag or the least traction of a sweep of speeds. `None` where the answers describe
 /// the last step.
 pub fn answering_rank(row: StepRow<'_>) -> Option<f64> {
     match row {
         StepRow::Increment(row) => row.interface.as_ref().map(|_| -row.load),
-        StepRow::Point(row) => row.steady.map(|steady| steady.drag_coefficient),
+        StepRow::Point(row) => {
+            let of_oil = row.lubrication.map(|film| -film.traction_coefficient);
+            row.steady.map(|steady| steady.drag_coefficient).or(of_oil)
+        }
         StepRow::Update(_) | StepRow::Pass(_) => None,
     }
 }
@@ -281,7 +292,8 @@ pub fn jumps(increments: &[IncrementRecord]) -> Vec<Line> {
 
 /// Returns the curves over the points of a sweep besides those of the contact.
 pub fn of_points() -> Vec<OfPoints> {
-    vec![viscoelastic::OF_POINTS, adhesion::OF_POINTS]
+    let of_one = [viscoelastic::OF_POINTS, adhesion::OF_POINTS];
+    of_one.into_iter().chain(lubrication::views::OF_POINTS).collect()
 }
 
 /// Returns the columns of a run that answer the question of the user, each with its name: those of the
@@ -310,6 +322,11 @@ pub fn answering_columns() -> Vec<(String, String)> {
 /// are curved.
 pub fn doubts_at_rest(pressure: &Field, boundary: Boundary, curved: impl FnOnce() -> bool) -> Option<String> {
     adhesion::cut_off(pressure, boundary, curved)
+}
+
+/// Returns reasons in the points of a sweep not to trust it.
+pub fn doubts_after_points(interface: &Interfaces, points: &[SweepRecord]) -> Vec<String> {
+    interface.lubrication.iter().flat_map(|oil| lubrication::after_points(oil, points)).collect()
 }
 
 /// Returns reasons in the increments of a loading not to trust it.

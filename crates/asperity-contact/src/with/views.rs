@@ -227,6 +227,19 @@ pub struct OfPoints {
     pub may_be_log: bool,
     /// The value of a point; `None` if it has none.
     pub value: fn(&SweepRecord) -> Option<f64>,
+    /// The curves with their names, if there are several; that of the value is one of them.
+    pub beside: &'static [BesidePoints],
+}
+
+/// One of several curves over the points of a sweep.
+#[derive(Debug, Clone, Copy)]
+pub struct BesidePoints {
+    /// Its name.
+    pub name: &'static str,
+    /// The value of a point; `None` if it has none.
+    pub value: fn(&SweepRecord) -> Option<f64>,
+    /// Whether it is dashed, as a formula.
+    pub is_dashed: bool,
 }
 
 /// A number that answers a question of the user.

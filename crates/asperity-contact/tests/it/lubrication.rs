@@ -41,7 +41,7 @@ fn problem(gap: &Field, speed: f64, load: f64) -> FilmProblem<'_> {
 
 fn solved(operator: &mut dyn Operator, problem: FilmProblem<'_>) -> Result<FilmSolution> {
     let speed = problem.speed;
-    Ok(FilmSpeeds::new(operator, problem, FilmParams::default())?.film_at(operator, speed)?.solution)
+    Ok(FilmSpeeds::new(operator, &problem, FilmParams::default())?.film_at(operator, speed)?.solution)
 }
 
 /// What the flow sees of a cell.
@@ -179,10 +179,11 @@ fn the_answer_does_not_depend_on_the_start_or_on_the_order_of_speeds() {
     let load = 3.0;
     let slow_first = {
         let mut speeds =
-            FilmSpeeds::new(&mut operator, problem(&gap, 1.0, load), FilmParams::default()).unwrap();
+            FilmSpeeds::new(&mut operator, &problem(&gap, 1.0, load), FilmParams::default()).unwrap();
         [1e-3, 1e-2, 0.1].map(|speed| speeds.film_at(&mut operator, speed).unwrap().solution)
     };
-    let mut speeds = FilmSpeeds::new(&mut operator, problem(&gap, 1.0, load), FilmParams::default()).unwrap();
+    let mut speeds =
+        FilmSpeeds::new(&mut operator, &problem(&gap, 1.0, load), FilmParams::default()).unwrap();
     let fast_first =
         [2.0, 0.1, 1e-2, 1e-3].map(|speed| speeds.film_at(&mut operator, speed).unwrap().solution);
     for (one, other) in slow_first.iter().zip(fast_first.iter().rev()) {
@@ -201,7 +202,7 @@ fn the_answer_does_not_depend_on_the_start_or_on_the_order_of_speeds() {
 fn a_film_comes_with_that_on_half_as_many_cells() {
     let (grid, gap) = ball([48, 40], 0.0, 0.0);
     let mut operator = FreeFft::new(grid, MODULUS);
-    let films = FilmSpeeds::new(&mut operator, problem(&gap, 1.0, 4.0), FilmParams::default());
+    let films = FilmSpeeds::new(&mut operator, &problem(&gap, 1.0, 4.0), FilmParams::default());
     let film = films.unwrap().film_at(&mut operator, 1.0).unwrap();
     let (coarse, half) = film.half.unwrap();
     assert_eq!((coarse.shape, coarse.pitch), ([24, 20], [16e-6; 2]));
@@ -221,7 +222,7 @@ fn an_oil_that_is_ten_times_thinner_and_faster_gives_the_same_film() {
     let [one, other] = [(0.04, 0.05), (0.004, 0.5)].map(|(viscosity, speed)| {
         let oil = Oil { viscosity, law: ViscosityLaw::Barus, ..OIL };
         let problem = FilmProblem { oil, ..problem(&gap, speed, 1.0) };
-        FilmSpeeds::new(&mut operator, problem, params)
+        FilmSpeeds::new(&mut operator, &problem, params)
             .unwrap()
             .film_at(&mut operator, speed)
             .unwrap()
@@ -257,7 +258,7 @@ fn a_film_without_a_meaning_is_refused() {
         let error = solve_film(&mut operator, &problem, &start, &FilmParams::default()).unwrap_err();
         assert!(error.to_string().starts_with(says), "{error}");
     }
-    let mut speeds = FilmSpeeds::new(&mut operator, good, FilmParams::default()).unwrap();
+    let mut speeds = FilmSpeeds::new(&mut operator, &good, FilmParams::default()).unwrap();
     for speed in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = speeds.film_at(&mut operator, speed).unwrap_err();
         assert!(error.to_string().starts_with("speed is "), "{error}");

@@ -13,10 +13,14 @@ pub(super) type OfStep = fn(&StepRecord) -> f64;
 type OfPass = fn(&PassRecord) -> f64;
 
 /// What is drawn over the positions: its figure, its name, its column.
-pub(crate) const OVER_POSITIONS: [(&str, &str, &str, OfStep); 5] = [
+pub(crate) const OVER_POSITIONS: [(&str, &str, &str, OfStep); 7] = [
     ("load", "load", "load", |s| s.load),
     ("friction", "friction force", "tangential_force", |s| s.tangential_force.abs()),
     ("drag", "drag", "drag", |s| s.drag.map_or(f64::NAN, |of| of.drag)),
+    ("mean_film", "film", "mean_film", |s| s.film.map_or(f64::NAN, |of| of.mean_film)),
+    ("solid_share", "share of the solids in the load", "solid_share", |s| {
+        s.film.map_or(f64::NAN, |of| of.solid_share)
+    }),
     ("contact_area", "real contact area", "contact_area", |s| s.contact_area),
     ("max_pressure", "largest pressure", "max_pressure", |s| s.max_pressure),
 ];
@@ -26,9 +30,11 @@ pub(crate) fn curves(passes: &[PassRecord], steps: &[StepRecord], sq: [f64; 2]) 
     let done = done(passes);
     let slides = steps.iter().any(|step| step.tangential_force != 0.0);
     let drags = steps.iter().any(|step| step.drag.is_some());
+    let has_film = steps.iter().any(|step| step.film.is_some());
     let shown = OVER_POSITIONS.into_iter().filter(|(name, ..)| match *name {
         "friction" => slides,
         "drag" => drags,
+        "mean_film" | "solid_share" => has_film,
         _ => true,
     });
     let mut curves: Vec<Curves> = shown

@@ -6,6 +6,7 @@ mod force_distance;
 mod fretting;
 mod friction;
 mod loading;
+mod lubrication;
 mod motion;
 mod pressure;
 mod profile;

@@ -8,7 +8,7 @@ use ndarray::Array1;
 use super::profile::{OverlapFields, Profile, Row, most_loaded};
 use super::sheet::Sheet;
 use super::stored::{Cap, StoredArray};
-use super::{course, force, force_distance, friction, loading, plastic, pressure, surfaces};
+use super::{course, force, force_distance, friction, loading, lubrication, plastic, pressure, surfaces};
 use crate::draw::{Charts, Colours, Maps, Unit, range_of_heights};
 use crate::error::Result;
 
@@ -68,6 +68,9 @@ pub(super) fn draw(
     }
     if fields.names()?.iter().any(|name| name == "stick") {
         friction::draw(fields, &p, &of, sheet)?;
+    }
+    if fields.names()?.iter().any(|name| name == "oil_pressure") {
+        lubrication::draw(fields, &of, sheet)?;
     }
     let increments = results.increments()?;
     course::solution(&[], &increments, &[])

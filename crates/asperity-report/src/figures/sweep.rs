@@ -3,7 +3,7 @@
 use asperity_contact::motion::SweepRecord;
 use asperity_contact::solver::Friction;
 use asperity_contact::with;
-use asperity_contact::with::views::OfPoints;
+use asperity_contact::with::views::{BesidePoints, OfPoints};
 use asperity_study::Case;
 use asperity_study::case::Prescribed;
 
@@ -29,7 +29,7 @@ const fn drawn(
     may_be_log: bool,
     value: fn(&SweepRecord) -> Option<f64>,
 ) -> OfPoints {
-    OfPoints { column, label, may_be_log, value }
+    OfPoints { column, label, may_be_log, value, beside: &[] }
 }
 
 pub(super) fn draw(points: &[SweepRecord], case: &Case, sheet: &mut Sheet) -> Result {
@@ -51,7 +51,9 @@ pub(crate) fn curves(points: &[SweepRecord], case: &Case) -> Vec<Curves> {
         return traction(points, limit).into_iter().collect();
     }
     let (column, x): (_, Number) = match case.contact.prescribed() {
-        _ if case.steady.is_some() => ("speed", |point| point.steady.map_or(f64::NAN, |steady| steady.speed)),
+        _ if points.iter().any(|point| point.speed.is_some()) => {
+            ("speed", |point| point.speed.unwrap_or(f64::NAN))
+        }
         Prescribed::Load(_) => ("load", |point| point.load),
         Prescribed::MeanPressure(_) => ("mean_pressure", |point| point.mean_pressure),
         Prescribed::Approach(_) => ("approach", |point| point.approach),
@@ -66,10 +68,18 @@ pub(crate) fn curves(points: &[SweepRecord], case: &Case) -> Vec<Curves> {
     let all = with::of_points().into_iter().chain(DRAWN);
     let known =
         all.filter(|drawn| points.iter().any(|point| (drawn.value)(point).is_some_and(f64::is_finite)));
-    let drawn = known.map(|OfPoints { column: name, label, may_be_log, value }| {
-        let y = |point: &SweepRecord| value(point).unwrap_or(f64::NAN);
-        let curve = ordered.iter().map(|point| [x(point), y(point)]).collect();
-        let series = vec![Series::new("", curve, Mark::LineAndPoints)];
+    let drawn = known.map(|OfPoints { column: name, label, may_be_log, value, beside }| {
+        let curve = |value: fn(&SweepRecord) -> Option<f64>| {
+            ordered.iter().map(|point| [x(point), value(point).unwrap_or(f64::NAN)]).collect::<Vec<_>>()
+        };
+        let alone = BesidePoints { name: "", value, is_dashed: false };
+        let all = if beside.is_empty() { std::slice::from_ref(&alone) } else { beside };
+        let series = all.iter().filter_map(|BesidePoints { name, value, is_dashed }| {
+            let mark = if *is_dashed { Mark::Dashed } else { Mark::LineAndPoints };
+            let curve = curve(*value);
+            curve.iter().any(|[_, y]| y.is_finite()).then(|| Series::new(*name, curve, mark))
+        });
+        let series = series.collect();
         let horizontal = Axis { log, ..Axis::of(swept.as_str(), column) };
         let vertical = Axis { log: log && may_be_log, ..Axis::of(label, name) };
         Curves::new(name, format!("{label} over {swept}"), Chart::new("", horizontal, vertical, series))

@@ -167,8 +167,9 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
 }
 
 fn of_points(points: &[SweepRecord]) -> Vec<Card> {
-    let ends = |value: fn(&SweepRecord) -> f64, dimension| {
-        change([value(&points[0]), value(&points[points.len() - 1])], dimension)
+    let ends = |value: fn(&SweepRecord) -> f64, dimension| match points {
+        [only] => format(value(only), dimension),
+        _ => change([value(&points[0]), value(&points[points.len() - 1])], dimension),
     };
     let largest = |value: fn(&SweepRecord) -> f64| points.iter().map(value).fold(0.0, f64::max);
     let pressure = format(largest(|point| point.max_pressure), Dimension::Pressure);
@@ -193,7 +194,7 @@ fn of_points(points: &[SweepRecord]) -> Vec<Card> {
             Card::of("area of contact", "contact_area", format(last.contact_area, Dimension::Area)),
         ];
     }
-    let from_to = "From the first to the last point.";
+    let from_to = if points.len() > 1 { "From the first to the last point." } else { "At the only point." };
     let last = &points[points.len() - 1];
     let load = if points.iter().all(|point| (point.load / last.load - 1.0).abs() < 1e-6) {
         Card::of("load", "load", format(last.load, Dimension::Force))

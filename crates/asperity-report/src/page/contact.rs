@@ -340,10 +340,9 @@ fn of_sweep(found: &mut PageData) -> Vec<Frame> {
             label: point_of(point.point, points.len()),
             text: format!(
                 "{}load {}, real contact {}, largest pressure {}",
-                point.steady.map_or(String::new(), |steady| format!(
-                    "speed {}, ",
-                    format(steady.speed, Dimension::Speed)
-                )),
+                point
+                    .speed
+                    .map_or(String::new(), |speed| format!("speed {}, ", format(speed, Dimension::Speed))),
                 format(point.load, Dimension::Force),
                 format(point.contact_area, Dimension::Area),
                 format(point.max_pressure, Dimension::Pressure)
@@ -453,6 +452,11 @@ fn at_rest(fields: &Fields) -> Result<Vec<(&'static str, StoredArray)>> {
     }
     if has("temperature") {
         maps.extend(temperature(read("temperature")?));
+    }
+    if has("oil_pressure") {
+        for name in ["oil_pressure", "solid_pressure", "cavity"] {
+            maps.push((name, read(name)?));
+        }
     }
     maps.insert(0, ("contact", contact));
     maps.insert(0, ("pressure", pressure));

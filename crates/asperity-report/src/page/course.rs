@@ -34,11 +34,16 @@ pub(super) fn loading(found: &PageData, charts: &mut Vec<Value>) -> Option<Strin
     Some(curves::first(curves, charts)).filter(|html| !html.is_empty())
 }
 
-/// The section of bodies that slide at one speed after another: the drag and the contact over the speed; none
-/// of others.
+/// The section of bodies that slide at one speed after another: drag or film, and the contact, over the speed;
+/// none of others.
 pub(super) fn over_speed(found: &PageData, charts: &mut Vec<Value>) -> Option<String> {
-    found.case.steady.as_ref().filter(|_| found.points.len() > 1)?;
+    (found.points.len() > 1 && is_over_speed(found)).then_some(())?;
     Some(curves::first(figures::of_sweep(&found.points, &found.case), charts)).filter(|html| !html.is_empty())
+}
+
+/// Whether the points differ by their speed.
+fn is_over_speed(found: &PageData) -> bool {
+    found.points.iter().any(|point| point.speed.is_some())
 }
 
 /// Sq of both bodies before the first pass.
@@ -71,7 +76,7 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
         data["passes"] = of_passes(found);
     }
     // Those over the speed have a section of their own.
-    if !found.points.is_empty() && found.case.steady.is_none() {
+    if !found.points.is_empty() && !is_over_speed(found) {
         html += &curves::html(figures::of_sweep(&found.points, &found.case), charts);
     }
     let last = found.passes.len();

@@ -1,5 +1,6 @@
 //! The interface of the bodies: its numbers, the force–distance curve, the jumps.
 
+use asperity_base::units::{Dimension, format};
 use asperity_contact::each;
 use asperity_contact::motion::IncrementRecord;
 use asperity_contact::with::views::Line;
@@ -59,7 +60,16 @@ fn html(found: &PageData, name: &str, labels: &[(&str, &str)], charts: &mut Vec<
         html += "<h3>At the end</h3>";
         html += &facts(interface_lines(record).into_iter().map(shown));
     }
-    Some(html + &jumps(&found.increments))
+    if let Some(last) = found.points.last()
+        && let Some(Value::Object(record)) =
+            last.lubrication.and_then(|record| serde_json::to_value(record).ok())
+    {
+        let at = last.speed.map_or(String::new(), |speed| format(speed, Dimension::Speed));
+        html += &format!("<h3>Film at {at}</h3>");
+        html += &facts(numbers::of_record(&format!("sweep.{}", found.points.len() - 1), &record, &record));
+    }
+    html += &jumps(&found.increments);
+    Some(html).filter(|html| !html.is_empty())
 }
 
 /// A line in HTML.

@@ -26,8 +26,16 @@ pub(super) enum Kind {
 }
 
 /// All maps that a position may have, in the order of the page.
-pub(super) const LAYERS: [Layer; 9] = [
+pub(super) const LAYERS: [Layer; 12] = [
     Layer { name: "pressure", title: "pressure", unit: Unit::Pressure, kind: Kind::Positive },
+    Layer { name: "oil_pressure", title: "pressure of the oil", unit: Unit::Pressure, kind: Kind::Positive },
+    Layer {
+        name: "solid_pressure",
+        title: "pressure of the solids",
+        unit: Unit::Pressure,
+        kind: Kind::Positive,
+    },
+    Layer { name: "cavity", title: "cavity", unit: Unit::Number, kind: Kind::Positive },
     Layer { name: "contact", title: "contact", unit: Unit::Number, kind: Kind::Classes(Colours::CONTACT) },
     Layer { name: "temperature", title: "temperature", unit: Unit::Of("°C"), kind: Kind::Between },
     Layer { name: "shear", title: "shear on the lower body", unit: Unit::Pressure, kind: Kind::Positive },

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use asperity_base::units::format_number_digits;
 use asperity_contact::motion::{IncrementRecord, SweepRecord};
 use asperity_study::{self, Case, Existing, Results, SurfaceInput};
 use serde_json::Value;
@@ -158,6 +159,26 @@ fn bodies_that_attract_each_other_have_a_section_with_their_curve() {
     let [low, high] = [0, 1].map(|end| layer["ranges"][0][end].as_f64().unwrap());
     assert!(low < 0.0 && low == -high);
     assert!(!Computed::of(AT_REST).page().contains("id=\"adhesion\""));
+}
+
+/// The first sentence tells film, load and friction; the maps have the pressures of oil and solids.
+#[test]
+fn the_page_of_lubricated_bodies_tells_their_film() {
+    let oil = "lubrication = { viscosity = 0.04, pressure_viscosity = 2e-8, limiting_stress = 0.05, speed = 0.05 }\n";
+    let computed = Computed::of(&(AT_REST.to_owned() + oil));
+    let film = computed.results().sweep().unwrap()[0].lubrication.unwrap();
+    let page = computed.page();
+    let words = format!("the traction coefficient is {}", format_number_digits(film.traction_coefficient, 3));
+    assert!(page.contains("At 50 mm/s the film is") && page.contains(&words), "{words}");
+    assert!(page.contains("id=\"lubrication\"") && page.contains("Film at 50 mm/s"));
+    let data = computed.data();
+    let layers = data["contact"]["layers"].as_array().unwrap();
+    // A map of zeros is left out.
+    for (name, is_there) in
+        [("oil_pressure", true), ("solid_pressure", film.solid_share > 0.0), ("cavity", true)]
+    {
+        assert_eq!(layers.iter().any(|layer| layer["name"] == name), is_there, "{name}");
+    }
 }
 
 /// A sweep opens on its last point, to which the numbers beside the map belong, and one of speeds on that of

@@ -11,7 +11,8 @@ use crate::words::numbers::change;
 
 /// The outcome of a run, or what there is of it so far.
 pub(super) fn sentence(found: &PageData, answers: &[Answer]) -> String {
-    let answers = answers.iter().map(|answer| answer.sentence.clone());
+    let answers =
+        answers.iter().map(|answer| answer.sentence.clone()).filter(|sentence| !sentence.is_empty());
     answers.chain([of_contact(found)]).collect::<Vec<_>>().join(" ")
 }
 
@@ -44,11 +45,16 @@ fn of_passes(found: &PageData, last: &PassRecord) -> String {
         return format!("{under}, {}.", of_regime(plastic, shaken_down(&found.passes)));
     }
     let area = format(last.mean_contact_area, Dimension::Area);
-    let mut text = format!("{under}, the real area of contact is {area}");
+    // Through a film of oil, area and pressure are those of the solids.
+    let [touch, most] = match last.film {
+        Some(_) => ["the solids touch on", " under up to"],
+        None => ["the real area of contact is", " and the largest pressure"],
+    };
+    let mut text = format!("{under}, {touch} {area}");
     if let Some(share) = share_of_overlap(last) {
         text += &format!(" ({share} % of the overlap)");
     }
-    text += &format!(" and the largest pressure {}", format(last.max_pressure, Dimension::Pressure));
+    text += &format!("{most} {}", format(last.max_pressure, Dimension::Pressure));
     text += ". ";
     if let Some(temperature) = largest_temperature(found, last) {
         text += &format!("The surfaces reach {} °C. ", format_number(temperature - CELSIUS));
@@ -148,7 +154,7 @@ fn of_points(points: &[SweepRecord]) -> String {
             format_number(most.creepage_x.hypot(most.creepage_y))
         );
     }
-    if last.steady.is_some() {
+    if last.speed.is_some() {
         let pressures = || points.iter().map(|point| point.max_pressure);
         let [least, most] = [pressures().fold(f64::INFINITY, f64::min), pressures().fold(0.0, f64::max)];
         let [least, most] = [least, most].map(|pressure| format(pressure, Dimension::Pressure));

@@ -1,7 +1,7 @@
 //! Captions of the charts and maps of the page, as in a paper.
 
 /// Captions by the names of figures and of the maps of a contact. A capability has its own.
-const CAPTIONS: [(&str, &str); 41] = [
+const CAPTIONS: [(&str, &str); 46] = [
     (
         "approach",
         "Rigid-body approach of each pass, with what the surfaces have lost by plastic deformation.",
@@ -49,10 +49,24 @@ const CAPTIONS: [(&str, &str); 41] = [
         "mean_drag",
         "Mean force over the positions of each pass with which the bodies resist the motion, over the load. It settles as the bodies remember more passes.",
     ),
+    (
+        "oil_film",
+        "Thickness of the film, the share of it that is empty behind the contact, and what oil and solids bear.",
+    ),
+    ("oil_film_section", "The film and the pressures on a line along x through the largest pressure."),
+    (
+        "mean_film",
+        "Mean film in the contact. A dashed line is the central film of smooth bodies by a formula.",
+    ),
+    ("solid_share", "Share of the load that the solids bear: 0 in a full film, 1 in dry contact."),
+    (
+        "traction_coefficient",
+        "The Stribeck curve: shear of the oil and friction of the solids, over the load.",
+    ),
     ("mean_gap", "Mean distance of the deformed surfaces over the whole grid."),
     ("plastic", "Depth that yields at the hardness, both bodies together."),
     ("plastic_flow", "Plastic strain and work of each step. Bodies that have shaken down flow no more."),
-    ("pressure", "Pressure on each cell. Cells without colour do not touch."),
+    ("pressure", "Pressure on each cell. Cells without colour bear none."),
     (
         "pressure_histogram",
         "Share of the contact at each pressure. A peak at the right end is material at its hardness.",

@@ -99,9 +99,14 @@ impl Case {
             let point = |rolling| Point { control: normal, regime: regime(Some(rolling)), speed: None };
             return Course::Sweep(rolling.map(point).collect());
         }
-        if let Some(steady) = &self.steady {
+        let speeds = match (&self.steady, &self.interface.lubrication) {
+            (Some(steady), _) => Some(steady.all()),
+            (None, Some(oil)) => Some(oil.all_speeds()),
+            (None, None) => None,
+        };
+        if let Some(speeds) = speeds {
             let point = |speed| Point { control: normal, regime: regime(None), speed: Some(speed) };
-            return Course::Sweep(steady.all().into_iter().map(point).collect());
+            return Course::Sweep(speeds.into_iter().map(point).collect());
         }
         let rolling = rolling.next();
         let sweep = self.contact.sweep();

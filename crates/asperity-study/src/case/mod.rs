@@ -133,6 +133,11 @@ impl Case {
         [&self.lower, &self.upper].into_iter().any(|body| body.relaxation_terms().is_some())
     }
 
+    /// Whether each position of a pass needs the one before: of viscoelastic or lubricated bodies.
+    pub(crate) fn follows_itself(&self) -> bool {
+        self.relaxes() || self.interface.lubrication.is_some()
+    }
+
     /// Whether a body yields at a hardness.
     pub(crate) fn yields(&self) -> bool {
         [&self.lower, &self.upper].into_iter().any(|body| body.hardness.yields())

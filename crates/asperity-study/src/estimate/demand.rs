@@ -233,6 +233,9 @@ impl<'a> Sizes<'a> {
         if let Some(cost) = case.interface.cost() {
             solver += NUMBER * cost.memory * nx * ny;
         }
+        if case.interface.lubrication.is_some() {
+            solver += NUMBER * FILM_MEMORY * nx * ny;
+        }
         if case.steady.is_some() {
             solver += NUMBER * (DIRECTIONS * nx * ny + 6.0 * padded);
         }
@@ -246,7 +249,7 @@ impl<'a> Sizes<'a> {
         let volumes: f64 = self.volumes().map(volume).sum();
         let motion = case.motion(nx * ny * self.lower.cell_area());
         let together = motion
-            .filter(|_| !case.relaxes())
+            .filter(|_| !case.follows_itself())
             .and_then(|motion| {
                 memory_together(
                     &motion,
@@ -283,7 +286,7 @@ impl<'a> Sizes<'a> {
         let couples = self.compliances().is_some_and(|compliances| compliances.coupling != 0.0);
         let (yields, all) = (self.case.yields(), self.overlaps.len());
         let follows = self.case.interface.follows_path();
-        let motion = self.case.motion(1.0).filter(|_| !self.case.relaxes());
+        let motion = self.case.motion(1.0).filter(|_| !self.case.follows_itself());
         &self.overlaps[..motion.map_or(all, |motion| motion.distinct(all, yields, couples, follows))]
     }
 
@@ -316,7 +319,7 @@ impl<'a> Sizes<'a> {
         let Course::Passes(motion) = course else { return 1.0 };
         let searches = matches!(motion.control, Control::Load(_)) && motion.load_control == LoadControl::Pass;
         let changes = motion.plastic_update == PlasticUpdate::Step
-            || self.case.relaxes()
+            || self.case.follows_itself()
             || self.case.plasticity.is_some();
         if searches && changes { 5.0 } else { 1.0 }
     }
@@ -373,8 +376,8 @@ impl<'a> Sizes<'a> {
         let positions = solved.len() as f64;
         let all: f64 = solved.iter().map(|columns| work(*columns as f64)).sum();
         let of_step = trials * convolutions * boundary * of_convolution * all + POSITION * positions;
-        // Viscoelastic bodies remember one position after the other.
-        let at_once = if case.relaxes() { 1 } else { solved.len() };
+        // Viscoelastic bodies and films of oil remember one position after the other.
+        let at_once = if case.follows_itself() { 1 } else { solved.len() };
         let mut effort = steps * of_step / together(at_once);
         let laws = case.lower.effort_of_laws() + case.upper.effort_of_laws();
         effort += steps * laws * ny * solved.iter().sum::<usize>() as f64;
@@ -405,6 +408,10 @@ impl<'a> Sizes<'a> {
             }
             Course::Rolling(_) | Course::Sweep(_) if course.rolling().next().is_some() => {
                 return if unlike { ROLLING_UNLIKE } else { ROLLING };
+            }
+            Course::Sweep(_) if case.interface.lubrication.is_some() => {
+                let larger = (nx * ny / LARGE).powf(FILM_GROWTH);
+                return Cost { convolutions: larger * FILM.convolutions, ..FILM };
             }
             Course::Sweep(_) if case.steady.is_some() => {
                 let larger = (nx * ny / LARGE).powf(STEADY_GROWTH);
@@ -543,6 +550,11 @@ const ROLLING_UNLIKE: Cost = Cost { convolutions: 230.0, work: 5.0 };
 /// the number of cells.
 const STEADY: Cost = Cost { convolutions: 135.0, work: 2.5 };
 const STEADY_GROWTH: f64 = 0.6;
+/// A steady film of oil at each speed, with that on half as many cells, the exponent by which it grows with the number
+/// of cells, and the numbers of each cell in memory: most belong to the factor of the near matrix.
+const FILM: Cost = Cost { convolutions: 300.0, work: 6.0 };
+const FILM_GROWTH: f64 = 0.7;
+const FILM_MEMORY: f64 = 1500.0;
 /// Number of cells from which a contact takes more convolutions, and the exponent of this growth.
 const LARGE: f64 = 16384.0;
 const GROWTH: f64 = 0.09;

@@ -12,6 +12,7 @@ pub use demand::{Demand, demand, memory_on_device};
 use super::case::{Body, Case, Course, Hardness, Layer, Source, TopographySpec};
 use super::closed_form::ClosedForm;
 use super::prepare::{Bodies, MountedSurface};
+use crate::lubrication::lubrication;
 use crate::subsurface::Plan;
 use crate::viscoelastic::{self, ViscoelasticEstimate};
 use asperity_base::error::{Error, Result};
@@ -19,6 +20,7 @@ use asperity_base::grid::{CellValues, Field, Grid};
 use asperity_base::math::parallel;
 use asperity_base::math::sum::sums;
 use asperity_base::units::{self, Dimension, Metre, Newton, Pascal, Second, SquareMetre};
+use asperity_contact::lubrication::Lubrication;
 use asperity_contact::material::{Compliances, plastic_share};
 use asperity_contact::motion::{
     LoadControl, Paraboloid, Position, Stage, Strategy, check_limit, initial_gap, opposing_values,
@@ -72,6 +74,8 @@ pub struct Estimate {
     pub gap_slope: f64,
     /// The interface of the bodies in numbers.
     pub interface: InterfaceNumbers,
+    /// The oil between lubricated bodies; `None` between dry ones.
+    pub lubrication: Option<Lubrication>,
     /// Closed form of the contact, if both bodies are smooth forms and stay elastic; `None` for others.
     pub closed_form: Option<ClosedForm>,
     /// Requested output of the stress under the surface.
@@ -161,6 +165,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         closed_form: ClosedForm::from_case(case, lower_grid.extent(), control)
             .filter(|_| case.interface.is_empty() && !case.relaxes())
             .filter(|form| form.max_pressure.is_none_or(|pressure| pressure <= hardness)),
+        lubrication: lubrication(case)?,
         subsurface: Plan::new(case, [&lower_grid, &upper_grid], &positions)?,
         viscoelastic: viscoelastic::estimate(
             case,

@@ -5,12 +5,13 @@ use serde_json::Value;
 use super::axis::{Axis, ValueInFile};
 
 /// Keys of a case that list the points of a sweep, and the key of one point.
-const SWEPT: [(&str, &str); 5] = [
+const SWEPT: [(&str, &str); 6] = [
     ("/contact/loads", "contact.load"),
     ("/contact/mean_pressures", "contact.mean_pressure"),
     ("/contact/approaches", "contact.approach"),
     ("/friction/creepages", "friction.creepage"),
     ("/steady/speeds", "steady.speed"),
+    ("/lubrication/speeds", "lubrication.speed"),
 ];
 
 /// Returns the key of a point of the sweep of a resolved case, and the values of all points; `None` without a

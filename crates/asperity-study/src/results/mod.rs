@@ -480,7 +480,7 @@ impl Results {
         let (rows, table) = (self.sweep()?, self.sweep_path());
         let state =
             self.under_way(pair, rows.clone(), 1, &table, |from, rows| SweepState::restore(from, rows))?;
-        Ok(state.unwrap_or(SweepState { records: rows, start: None }))
+        Ok(state.unwrap_or(SweepState { records: rows, ..SweepState::default() }))
     }
 
     /// Reads the interrupted contact of the `pair` that slides in place, if there is one.

@@ -17,6 +17,7 @@ use crate::tables::{self, GrowingTable};
 use asperity_base::error::Result;
 use asperity_base::grid::{CellValues, Field};
 use asperity_base::record::Record;
+use asperity_contact::lubrication::Film;
 use asperity_contact::motion::{
     IncrementRecord, Output, PassReport, Step, StepRecord, StepRow, SweepRecord, UpdateRecord,
 };
@@ -180,9 +181,9 @@ impl StepWriter {
     fn write_contact(&self, step: &Step<'_>) -> Result<()> {
         let number = step.number;
         let Some((kind, path)) = self.contact_file(step.row, number) else { return Ok(()) };
-        let may_pull = match step.row {
+        let is_between = match step.row {
             StepRow::Increment(row) => row.interface.is_some(),
-            StepRow::Point(row) => row.interface.is_some(),
+            StepRow::Point(row) => row.interface.is_some() || row.lubrication.is_some(),
             StepRow::Update(_) | StepRow::Pass(_) => false,
         };
         let (Some(solution), true) = (step.contact, self.kept.has(number, step.row)) else { return Ok(()) };
@@ -193,10 +194,11 @@ impl StepWriter {
         };
         add("pressure", "Pa", &solution.pressure);
         // The pressure alone does not say which cells are in contact.
-        if may_pull {
+        if is_between {
             add("contact", "1", &solution.contact_field());
         }
         add("gap", "m", &solution.gap());
+        step.film.into_iter().flat_map(Film::parts).for_each(|(name, unit, field)| add(name, unit, field));
         if let (Some(plastic), true) = (step.plastic(), solution.bounds.upper().min().is_finite()) {
             add("plastic", "m", &plastic);
         }

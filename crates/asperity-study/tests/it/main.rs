@@ -15,6 +15,7 @@ mod hardness;
 mod in_place;
 mod limits;
 mod loading;
+mod lubrication;
 mod passage;
 mod plausible;
 mod python_keys;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::support::{crates, files_below};
 
 /// A word, the folders of its capability, and the files outside them in which the word stands.
-const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
+const CAPABILITIES: [(&str, &[&str], &[&str]); 7] = [
     (
         "conductance",
         &["with/conductance"],
@@ -112,8 +112,9 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             "asperity-base/src/error/mod.rs",
             "asperity-study/src/case/stage.rs",
             "asperity-study/src/case/rules/loading.rs",
-            // Tables that viscoelastic bodies do not support.
+            // Tables that viscoelastic and lubricated bodies do not support.
             "asperity-study/src/case/rules/viscoelastic.rs",
+            "asperity-study/src/case/rules/lubrication.rs",
             // A case that shows it.
             "asperity-cli/src/example/kits.rs",
             // Its numbers in Python, its error, and the types that are made from its table.
@@ -160,6 +161,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             "asperity-study/src/case/mod.rs",
             "asperity-study/src/case/rules/mod.rs",
             "asperity-study/src/case/rules/viscoelastic.rs",
+            "asperity-study/src/case/rules/lubrication.rs",
             "asperity-study/src/case/rules/temperature.rs",
             "asperity-study/src/case/body.rs",
             "asperity-study/src/case/motion.rs",
@@ -178,6 +180,67 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             "asperity-report/src/figures/loading.rs",
             "asperity-report/src/words/captions.rs",
             "asperity-cli/src/example/kits.rs",
+            // The types that are made from its table.
+            "asperity/keys.py",
+        ],
+    ),
+    (
+        "lubric",
+        &["src/lubrication/", "with/lubrication", "motion/lubricated", "record/lubrication.rs"],
+        &[
+            // The list, and its names in both libraries.
+            "asperity-contact/src/with/mod.rs",
+            "asperity-contact/src/with/interface.rs",
+            "asperity-contact/src/lib.rs",
+            "asperity/src/lib.rs",
+            // A pair with an oil between its bodies, and their films in sweeps and passes.
+            "asperity-contact/src/motion/mod.rs",
+            "asperity-contact/src/motion/course.rs",
+            "asperity-contact/src/motion/pair.rs",
+            "asperity-contact/src/motion/pass.rs",
+            "asperity-contact/src/motion/state.rs",
+            "asperity-contact/src/motion/sweep.rs",
+            "asperity-contact/src/motion/simulation/mod.rs",
+            "asperity-contact/src/motion/simulation/removal.rs",
+            "asperity-contact/src/motion/simulation/search.rs",
+            // Their columns.
+            "asperity-contact/src/motion/record/mod.rs",
+            "asperity-contact/src/motion/record/pass.rs",
+            "asperity-contact/src/motion/record/step.rs",
+            "asperity-contact/src/motion/record/sweep.rs",
+            "asperity-study/src/columns.rs",
+            // Wear and films of lubricated metals, solid lubricants, and a fluid that lifts.
+            "asperity-base/src/exists.rs",
+            "with/film/mod.rs",
+            "with/film/table.rs",
+            "with/wear/table.rs",
+            "with/flow/doubts.rs",
+            // A case of such bodies: its keys, rules and oil, its fields.
+            "asperity-study/src/lubrication.rs",
+            "asperity-study/src/lib.rs",
+            "asperity-study/src/finish.rs",
+            "asperity-study/src/static_contact.rs",
+            "asperity-study/src/case/mod.rs",
+            "asperity-study/src/case/course.rs",
+            "asperity-study/src/case/rules/mod.rs",
+            "asperity-study/src/case/rules/examples.rs",
+            "asperity-study/src/case/rules/lubrication.rs",
+            "asperity-study/src/case/rules/temperature.rs",
+            "asperity-study/src/case/schema/sweep.rs",
+            "asperity-study/src/estimate/mod.rs",
+            "asperity-study/src/estimate/demand.rs",
+            "asperity-study/src/results/step.rs",
+            "asperity-study/src/parametric/points.rs",
+            // The oil in words, figures, rows, a case that shows it, and the list of lubricants.
+            "asperity-report/src/check.rs",
+            "asperity-report/src/figures/mod.rs",
+            "asperity-report/src/figures/static_contact.rs",
+            "asperity-report/src/page/interface.rs",
+            "asperity-cli/src/run/rows.rs",
+            "asperity-cli/src/example/kits.rs",
+            "asperity-cli/src/materials.rs",
+            "asperity-cli/src/args/pair.rs",
+            "asperity/material.py",
             // The types that are made from its table.
             "asperity/keys.py",
         ],

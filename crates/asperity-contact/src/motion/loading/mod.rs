@@ -284,6 +284,7 @@ impl StagedLoading {
             dissipation_error,
             changed,
             plastic_result,
+            film: None,
         }
     }
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::creep::PassDragRecord;
 use super::laws::RunningRecord;
 use super::lost_volumes::{self, LostVolume};
+use super::lubrication::FilmRecord;
 use super::plastic::PassPlasticRecord;
 use crate::solver::InterfacePassRecord;
 use crate::units::{CubicMetre, Metre, Newton, Pascal, Second, SquareMetre};
@@ -57,6 +58,9 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PassPlasticRecord>,
+        /// The film of lubricated bodies: means over the positions, and the least film; none of others.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub film: Option<FilmRecord>,
         /// Drag of viscoelastic bodies; none of others.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub drag: Option<PassDragRecord>,

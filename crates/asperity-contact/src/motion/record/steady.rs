@@ -2,15 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::units::{MetrePerSecond, Newton, Watt};
+use crate::units::{Newton, Watt};
 use asperity_base::record::columns;
 
 columns! {
     /// Drag of viscoelastic bodies in steady sliding.
     #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
     pub struct SteadyRecord {
-        /// Speed at which the contact moves over the body that is smooth along x.
-        pub speed: MetrePerSecond,
         /// Force with which the bodies resist the motion: what the viscoelastic body dissipates over a
         /// distance.
         pub drag: Newton,

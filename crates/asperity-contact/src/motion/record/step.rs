@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::creep::DragRecord;
 use super::heat::HeatRecord;
+use super::lubrication::FilmRecord;
 use super::plastic::PlasticStepRecord;
 use crate::solver::InterfaceRecord;
 use crate::units::{CubicMetre, Metre, Newton, Pascal, SquareMetre};
@@ -60,6 +61,9 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticStepRecord>,
+        /// The film of lubricated bodies; none of others.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub film: Option<FilmRecord>,
         /// Drag of viscoelastic bodies; none of others.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub drag: Option<DragRecord>,

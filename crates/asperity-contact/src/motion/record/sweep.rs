@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::lubrication::LubricationRecord;
 use super::plastic::PlasticStepRecord;
 use super::steady::SteadyRecord;
 use crate::solver::InterfaceRecord;
-use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonPerMetre, Pascal, SquareMetre};
+use crate::units::{CubicMetre, Joule, Metre, MetrePerSecond, Newton, NewtonPerMetre, Pascal, SquareMetre};
 use asperity_base::record::columns;
 
 columns! {
@@ -69,9 +70,16 @@ columns! {
         /// Tension across the gap; none between hard walls.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub interface: Option<InterfaceRecord>,
+        /// Speed of bodies that slide steadily: that of the contact over the viscoelastic body that is smooth along
+        /// x, or the mean speed of both surfaces of lubricated bodies, along x. None for others.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub speed: Option<MetrePerSecond>,
         /// Steady sliding of viscoelastic bodies; none for others.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub steady: Option<SteadyRecord>,
+        /// The film between lubricated bodies; none between others.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub lubrication: Option<LubricationRecord>,
         /// Plastic flow below the surfaces up to the load of the point; none for other than elasto-plastic
         /// bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]

@@ -18,6 +18,7 @@ use crate::motion::creeping;
 use crate::motion::extrapolation::{GridCompliance, Removed};
 use crate::motion::heat::PassHeat;
 use crate::motion::kinematics::{Motion, Strategy};
+use crate::motion::lubricated_passes;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::{OffsetY, Position, Stroke};
@@ -86,12 +87,11 @@ impl Simulation {
         let positions = positions(&pair, boundary, &motion)?;
         let max_load: Vec<Newton> = positions.iter().map(|p| max_load(&pair, &motion, p)).collect();
         check_limit(motion.control, motion.load_control.plastic_limit(&max_load))?;
-        let distinct = match pair.creep() {
-            None => {
-                let follows = pair.interface().follows_path();
-                motion.distinct(positions.len(), pair.yields(), pair.couples(), follows)
-            }
-            Some(_) => positions.len(),
+        let distinct = if pair.creep().is_some() || pair.lubrication().is_some() {
+            positions.len()
+        } else {
+            let follows = pair.interface().follows_path();
+            motion.distinct(positions.len(), pair.yields(), pair.couples(), follows)
         };
         let columns: Vec<usize> = positions[..distinct].iter().map(|p| p.columns).collect();
         // Viscoelastic bodies are displaced beyond the overlap, too.
@@ -107,6 +107,7 @@ impl Simulation {
             )?;
         }
         creeping::check(&pair, boundary, &motion, &params)?;
+        lubricated_passes::check(&pair, boundary, &motion, &params)?;
         let operators = pair.operators(largest, boundary)?;
         if motion.friction.is_some_and(|friction| friction.coupling != Coupling::None) {
             pair.check_shear()?;
@@ -114,6 +115,7 @@ impl Simulation {
         let together = params.device == Device::Cpu
             && pair.interface().is_hard()
             && pair.creep().is_none()
+            && pair.lubrication().is_none()
             && memory_together(&motion, params.method, pair.yields(), &columns, pair.lower.width()).is_some();
         Ok(Self {
             together,
@@ -396,6 +398,7 @@ impl Simulation {
         let mut steps: Vec<StepRecord> = outcome.contacts.iter().enumerate().map(step).collect();
         let drags = steps.iter_mut().zip(outcome.drag.iter().flat_map(|drag| &drag.positions));
         drags.for_each(|(step, drag)| step.drag = Some(DragRecord { drag: *drag }));
+        steps.iter_mut().zip(&outcome.films).for_each(|(step, film)| step.film = Some(*film));
         if let Some(plastic_pass) = &outcome.plastic_pass {
             steps
                 .iter_mut()

@@ -113,7 +113,10 @@ impl Simulation {
             None if pair.creep().is_some() => {
                 solver.solve_creeping(pair, control, &self.params, earlier).map(Some)
             }
-            None => Ok(None),
+            None => match pair.lubrication() {
+                Some(oil) => solver.solve_lubricated(pair, oil, self.boundary, control).map(Some),
+                None => Ok(None),
+            },
         }
     }
 

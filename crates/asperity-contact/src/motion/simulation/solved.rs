@@ -8,7 +8,7 @@ use crate::motion::law;
 use crate::motion::pair::Pair;
 use crate::motion::pass::Pass;
 use crate::motion::plastic_volume::PlasticVolume;
-use crate::motion::record::{LostVolume, PassDragRecord, PassRecord, RunningRecord, StepRecord};
+use crate::motion::record::{FilmRecord, LostVolume, PassDragRecord, PassRecord, RunningRecord, StepRecord};
 use crate::motion::report::PassReport;
 use crate::motion::rim::Interior;
 use crate::motion::warm_start::{Guess, WarmStart};
@@ -72,6 +72,7 @@ impl SolvedPass {
                 self.history_difference,
             ),
             plastic: self.outcome.plastic_pass.as_ref().map(|pass| pass.record),
+            film: FilmRecord::of_pass(&self.outcome.films),
             drag: self.outcome.drag.as_ref().map(|drag| {
                 let steps = drag.positions.iter().zip(&self.steps).zip(&drag.cells);
                 PassDragRecord::from_positions(
@@ -159,6 +160,7 @@ fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) ->
         running: None,
         interface: None,
         plastic: None,
+        film: None,
         drag: None,
         sq_lower: pair.lower.heights.std(0.0),
         sq_upper: pair.upper.heights.std(0.0),

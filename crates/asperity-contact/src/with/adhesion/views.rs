@@ -30,6 +30,7 @@ pub(in crate::with) const OF_POINTS: OfPoints = OfPoints {
     label: "adhesive load",
     may_be_log: false,
     value: |point| point.interface.map(|record| record.adhesive_load),
+    beside: &[],
 };
 
 impl Attraction {

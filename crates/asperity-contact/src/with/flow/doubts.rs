@@ -22,8 +22,8 @@ pub(super) fn of_rows(leakage: &Leakage, rows: &[FlowRecord], surroundings: &Sur
     let least = rows.iter().map(|row| row.mean_pressure).filter(|p| *p > 0.0).fold(f64::INFINITY, f64::min);
     if leakage.pressure > FLUID_PRESSURE * least {
         warnings.push(format!(
-            "the pressure difference of the fluid is {}, the mean pressure of the contact {}: the fluid would lift the bodies, which is \
-             left out",
+            "the pressure difference of the fluid is {}, the mean pressure of the contact {}: the fluid would lift the bodies, which \
+             [flow] leaves out; [lubrication] with `inlet_pressure` computes it",
             pressure(leakage.pressure),
             pressure(least),
         ));

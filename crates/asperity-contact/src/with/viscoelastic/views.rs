@@ -13,18 +13,21 @@ pub(in crate::with) const OF_POINTS: OfPoints = OfPoints {
     label: "drag over load",
     may_be_log: false,
     value: |point| point.steady.map(|steady| steady.drag_coefficient),
+    beside: &[],
 };
 
 /// Returns what the points of a sweep show of steady sliding: the largest drag, and its speed.
 pub fn answers(points: &[SweepRecord]) -> Vec<Answer> {
     let steady: Vec<_> = points.iter().filter_map(|point| Some((point, point.steady?))).collect();
-    let Some((_, most)) =
+    let Some((most_at, most)) =
         steady.iter().max_by(|(_, a), (_, b)| a.drag_coefficient.total_cmp(&b.drag_coefficient))
     else {
         return Vec::new();
     };
     let value = format_number(most.drag_coefficient);
-    let at = format(most.speed, Dimension::Speed);
+    let speed_of = |point: &SweepRecord| point.speed.unwrap_or_default();
+    let speed = speed_of(most_at);
+    let at = format(speed, Dimension::Speed);
     let sentence = match steady.as_slice() {
         [(_, only)] => format!(
             "At {at} the bodies resist the motion with {value} of the load, {}, and dissipate {}.",
@@ -32,9 +35,9 @@ pub fn answers(points: &[SweepRecord]) -> Vec<Answer> {
             format(only.drag_power, Dimension::Power)
         ),
         several => {
-            let speeds = several.iter().map(|(_, steady)| steady.speed);
+            let speeds = several.iter().map(|(point, _)| speed_of(point));
             let [least, largest] = [speeds.clone().fold(f64::INFINITY, f64::min), speeds.fold(0.0, f64::max)];
-            let is_inside = least < most.speed && most.speed < largest;
+            let is_inside = least < speed && speed < largest;
             let place = if is_inside { "" } else { ", at an end of the speeds" };
             let share = |pick: fn(f64, f64) -> f64, from: f64| {
                 let shares = several.iter().map(|(point, _)| 100.0 * point.contact_fraction);

@@ -57,5 +57,9 @@ pub(super) const ROLLS: &str = "friction = { coefficient = 0.3, creepage = 0.001
 /// The bodies slide steadily.
 pub(super) const STEADY: &str = r#"steady = { speed = "1 m/s" }"#;
 
+/// The bodies have an oil between them.
+pub(super) const OIL: &str =
+    r#"lubrication = { viscosity = "40 mPa s", pressure_viscosity = "20 1/GPa", speed = "0.1 m/s" }"#;
+
 /// Passes are extrapolated.
 pub(super) const JUMPS: &str = "acceleration = {}";

@@ -7,6 +7,7 @@ mod bodies;
 mod device;
 mod examples;
 mod loading;
+mod lubrication;
 mod motion;
 mod output;
 mod plasticity;
@@ -43,8 +44,15 @@ struct Tables<'a> {
 
 /// Rules of the bodies and of their loading and motion, which come before those of the laws that change the
 /// bodies.
-const OF_THE_CONTACT: [&[Rule]; 6] =
-    [bodies::RULES, viscoelastic::RULES, motion::RULES, loading::RULES, plasticity::RULES, running::RULES];
+const OF_THE_CONTACT: [&[Rule]; 7] = [
+    bodies::RULES,
+    lubrication::RULES,
+    viscoelastic::RULES,
+    motion::RULES,
+    loading::RULES,
+    plasticity::RULES,
+    running::RULES,
+];
 
 /// Rules of everything else, which come after those of the laws.
 const OF_THE_REST: [&[Rule]; 3] = [temperature::RULES, output::RULES, device::RULES];
@@ -122,6 +130,13 @@ impl<'a> Tables<'a> {
             }
         }
         find(self.root, key)
+    }
+
+    /// Returns the table of the first capability that is given.
+    fn capability(&self) -> Option<Entry<'a>> {
+        let mut found = None;
+        each!(capability C => found = found.or(self.at(C::NAME)));
+        found
     }
 
     /// Returns the first given key of these keys of a table.

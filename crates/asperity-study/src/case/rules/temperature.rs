@@ -48,13 +48,14 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[temperature]",
         with: "a static contact",
-        message: "[temperature] needs [motion], [sliding], bodies with wear or a film that slip, or viscoelastic ones with `wlf_c1`",
+        message: "[temperature] needs [motion], [sliding], bodies with wear or a film that slip, viscoelastic ones with `wlf_c1`, or an `oil`",
         hint: "",
         at: "temperature",
         example: &[WARM],
         broken: |tables| {
             let changes = tables.slides() || tables.frets() && tables.case.runs_in();
-            tables.at("temperature").filter(|_| !changes && tables.shifted().is_none())
+            let depends = tables.shifted().or(tables.at("lubrication.oil"));
+            tables.at("temperature").filter(|_| !changes && depends.is_none())
         },
     },
     Rule {

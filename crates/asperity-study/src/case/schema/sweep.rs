@@ -14,7 +14,8 @@ use asperity_derive::Table;
     "contact.mean_pressures",
     "contact.approaches",
     "friction.creepages",
-    "steady.speeds"
+    "steady.speeds",
+    "lubrication.speeds"
 )]
 pub(super) struct Ends {
     /// First value.

@@ -86,6 +86,13 @@ const CLASSES: &[Class] = &[
         "Keys of ``steady``: steady sliding of viscoelastic bodies. `speed` or `speeds` is given.",
     ),
     (
+        "Lubrication",
+        &["lubrication"],
+        &[],
+        "Keys of ``lubrication``: an oil between the bodies, in a steady film. `oil` or `viscosity` is given, and `speed` or \
+         `speeds`.",
+    ),
+    (
         "Thermal",
         &["lower"],
         &["conductivity", "heat_capacity", "density", "resistivity"],
@@ -127,6 +134,7 @@ const KEYWORDS: &[Keywords] = &[
                 Which::Only(&[
                     "history",
                     "steady",
+                    "lubrication",
                     "acceleration",
                     "temperature",
                     "plasticity",
@@ -148,7 +156,7 @@ const KEYWORDS: &[Keywords] = &[
         "Keywords of a motion.",
         &[
             ("motion", Which::All),
-            ("", Which::Only(&["acceleration", "temperature", "plasticity", "subsurface"])),
+            ("", Which::Only(&["lubrication", "acceleration", "temperature", "plasticity", "subsurface"])),
             ("output", Which::Only(&["pressure_every", "rim"])),
         ],
     ),

@@ -1,0 +1,182 @@
+//! Rules of lubricated bodies.
+
+use super::super::{Body, ControlKind, CounterBody, Layer, Source};
+use super::Rule;
+use super::examples::{AT_ANY_SPEED, GENERATED, OIL, RUBS, SLIDES, SWEEP};
+use asperity_contact::motion::{Path, Strategy};
+use asperity_surface::Form;
+
+/// Tables that a film of oil excludes.
+const OTHERS: [&str; 5] = ["sliding", "history", "steady", "friction", "adhesion"];
+
+/// Bodies that pass over each other by a shift.
+const SHIFTS: &str = r#"motion = { strategy = "shift", speed_lower = 1, speed_upper = 0 }"#;
+
+/// Keys of a steady film.
+const STEADY: [&str; 3] = ["speed", "speeds", "sliding"];
+
+/// An oil between bodies that pass over each other.
+const BETWEEN: &str = r#"lubrication = { viscosity = "40 mPa s", pressure_viscosity = "20 1/GPa" }"#;
+
+pub(super) const RULES: &[Rule] = &[
+    Rule {
+        this: "[lubrication]",
+        with: "[friction]",
+        message: "[lubrication] does not take [friction]",
+        hint: "give the friction coefficient of solids that touch as `boundary_friction` in [lubrication]",
+        at: "friction",
+        example: &[OIL, RUBS],
+        broken: |tables| tables.at("lubrication").and(tables.at("friction")),
+    },
+    Rule {
+        this: "[lubrication]",
+        with: "[sliding], [[history]], [steady], [adhesion], and what is computed from dry contacts",
+        message: "[lubrication] does not support [{key}]",
+        hint: "a film is steady, with a `speed` in [lubrication], or follows a [motion]",
+        at: "sliding",
+        example: &[OIL, SLIDES],
+        broken: |tables| {
+            tables.at("lubrication")?;
+            OTHERS.iter().find_map(|table| tables.at(table)).or_else(|| tables.capability())
+        },
+    },
+    Rule {
+        this: "[lubrication]",
+        with: "no `speed`, no `speeds`, and no [motion]",
+        message: "a film needs a speed",
+        hint: "give `speed` or `speeds` in [lubrication], or a [motion]",
+        at: "lubrication",
+        example: &[BETWEEN],
+        broken: |tables| {
+            let steady = tables.first("lubrication", &STEADY[..2]);
+            tables.at("lubrication").filter(|_| steady.is_none() && tables.motion().is_none())
+        },
+    },
+    Rule {
+        this: "`speed`, `speeds`, `sliding` in [lubrication]",
+        with: "[motion]",
+        message: "'{key}' of [lubrication] has no meaning with [motion]",
+        hint: "the speeds are `speed_lower` and `speed_upper` in [motion]",
+        at: "lubrication.speed",
+        example: &[OIL, SHIFTS],
+        broken: |tables| tables.motion().and(tables.first("lubrication", &STEADY)),
+    },
+    Rule {
+        this: "[motion] of lubricated bodies",
+        with: "`strategy = \"overlap\"`, `path = \"reciprocating\"`, speeds whose sum is not above 0",
+        message: "lubricated bodies pass over each other by a shift, one way, and their mean speed is along +x",
+        hint: "set `strategy = \"shift\"`; the speed of the body that carries the form, such as a ball, is 0",
+        at: "motion",
+        example: &[BETWEEN, AT_ANY_SPEED],
+        broken: |tables| {
+            tables.at("lubrication")?;
+            let motion = tables.motion()?;
+            let is_along = match motion.strategy() {
+                Strategy::Overlap => false,
+                Strategy::Shift { speed_lower, speed_upper } => speed_lower + speed_upper > 0.0,
+            };
+            tables.at("motion").filter(|_| !is_along || motion.path != Path::OneWay)
+        },
+    },
+    Rule {
+        this: "[motion] of lubricated bodies",
+        with: "`control = \"pass-load\"`",
+        message: "a load on lubricated bodies holds at every position",
+        hint: "set `control = \"step-load\"` in [motion]",
+        at: "motion.control",
+        example: &[
+            BETWEEN,
+            r#"motion = { strategy = "shift", speed_lower = 1, speed_upper = 0, control = "pass-load" }"#,
+        ],
+        broken: |tables| {
+            tables.at("lubrication")?;
+            let of_pass = tables.motion()?.control == Some(ControlKind::PassLoad);
+            tables.at("motion.control").or(tables.at("motion")).filter(|_| of_pass)
+        },
+    },
+    Rule {
+        this: "[motion] of lubricated bodies",
+        with: "`counter = \"fresh\"`, [subsurface], a flash temperature",
+        message: "passes of lubricated bodies do not support '{key}'",
+        hint: "",
+        at: "subsurface",
+        example: &[
+            BETWEEN,
+            r#"motion = { strategy = "shift", speed_lower = 1, speed_upper = 0, control = "step-load" }"#,
+            r#"subsurface = { to = "5 um" }"#,
+        ],
+        broken: |tables| {
+            tables.at("lubrication").and(tables.motion())?;
+            let fresh = tables.motion().is_some_and(|motion| motion.counter == CounterBody::Fresh);
+            let counter = tables.at("motion.counter").filter(|_| fresh);
+            tables.at("subsurface").or(tables.flash()).or(counter)
+        },
+    },
+    Rule {
+        this: "[lubrication]",
+        with: "[lower.viscoelastic], [upper.viscoelastic]",
+        message: "[lubrication] does not support viscoelastic bodies",
+        hint: "",
+        at: "lower.viscoelastic",
+        example: &[OIL, r#"lower.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"] }"#],
+        broken: |tables| tables.at("lubrication").and(tables.viscoelastic()),
+    },
+    Rule {
+        this: "[lubrication]",
+        with: "a sweep",
+        message: "[lubrication] does not take '{key}'",
+        hint: "give one `load`, `mean_pressure` or `approach`; the films follow each other by `speeds`",
+        at: "contact.loads",
+        example: &[OIL, SWEEP],
+        broken: |tables| tables.at("lubrication").and(tables.sweep()),
+    },
+    Rule {
+        this: "[lubrication]",
+        with: "two rough bodies and no [motion]",
+        message: "a steady film needs a smooth body, which moves: between two rough ones no film is steady",
+        hint: "give one of them a `form` such as \"flat\" or \"sphere\", or a [motion]",
+        at: "upper.topography",
+        example: &[
+            OIL,
+            GENERATED,
+            r#"lower.topography = { generate = "low-pass", shape = [32, 32], pitch = "1 um", sq = "0.1 um", cutoff = "8 um" }"#,
+        ],
+        broken: |tables| {
+            tables.at("lubrication")?;
+            let both = is_rough(&tables.case.lower) && is_rough(&tables.case.upper);
+            tables.at("upper.topography").filter(|_| both && tables.motion().is_none())
+        },
+    },
+    Rule {
+        this: "`oil` in [lubrication]",
+        with: "no [temperature]",
+        message: "an oil by its name needs the temperature of the bodies",
+        hint: "add `[temperature]` with `bulk = \"40 °C\"`",
+        at: "lubrication.oil",
+        example: &[r#"lubrication = { oil = "ISO VG 46", speed = "0.1 m/s" }"#],
+        broken: |tables| tables.at("lubrication.oil").filter(|_| tables.case.temperature.is_none()),
+    },
+    Rule {
+        this: "`sliding` in [lubrication]",
+        with: "a rough body",
+        message: "'sliding' needs two smooth bodies: a rough one is at rest in a steady film",
+        hint: "leave `sliding` out: the smooth body has twice the mean `speed`",
+        at: "lubrication.sliding",
+        example: &[
+            GENERATED,
+            r#"lubrication = { viscosity = "40 mPa s", pressure_viscosity = "20 1/GPa", speed = "0.1 m/s", sliding = "0.02 m/s" }"#,
+        ],
+        broken: |tables| {
+            let rough = is_rough(&tables.case.lower) || is_rough(&tables.case.upper);
+            tables.at("lubrication.sliding").filter(|_| rough)
+        },
+    },
+];
+
+/// Whether a film changes where the body moves on: unless its form may turn with it.
+fn is_rough(body: &Body) -> bool {
+    let has_waves = |form: &Form| matches!(form, Form::Sinusoid { .. } | Form::Grooves { .. });
+    let is_smooth = |source: &Source| matches!(source, Source::Form { form, .. } if !has_waves(form));
+    let is_smooth_layer = |layer: &Layer| matches!(layer, Layer::Form { form, .. } if !has_waves(form));
+    !is_smooth(&body.topography.source) || !body.topography.plus.iter().all(is_smooth_layer)
+}

@@ -1,0 +1,214 @@
+//! Lubricated bodies of a case: speeds one after another, resuming, oils by name, seals, doubts.
+
+use asperity_contact::motion::{LubricationRecord, SweepRecord};
+use asperity_study::{Outcome, StaticResult};
+
+use crate::resume::goes_on;
+use crate::support::{at_rest, parsed, run};
+
+/// A steel ball with waves on a smooth plate, with what a test adds.
+fn case(oil: &str) -> String {
+    format!(
+        r#"
+[lower]
+material = "steel"
+hardness = inf
+topography = {{ form = "flat", shape = [48, 40], pitch = "11 um" }}
+[upper]
+material = "steel"
+hardness = inf
+topography = {{ form = "sphere", radius = "10 mm", plus = [{{ generate = "low-pass", sq = "60 nm", cutoff = "66 um" }}] }}
+[contact]
+load = "6 N"
+{oil}"#
+    )
+}
+
+const OIL: &str = r#"[lubrication]
+viscosity = "40 mPa s"
+pressure_viscosity = "20 1/GPa"
+limiting_stress = 0.05
+boundary_friction = 0.12
+"#;
+
+fn films(contact: &StaticResult) -> Vec<(SweepRecord, LubricationRecord)> {
+    let Outcome::Sweep(points) = &contact.outcome else { panic!("a sweep over speeds") };
+    points.iter().map(|point| (point.clone(), point.lubrication.unwrap())).collect()
+}
+
+#[test]
+fn an_interrupted_stribeck_curve_goes_on_to_the_same_bits() {
+    let text = case(&format!("{OIL}speeds = [\"1 m/s\", \"0.1 m/s\", \"30 mm/s\", \"1 mm/s\"]\n"));
+    let points = goes_on(&parsed(&text)).results.sweep().unwrap();
+    assert_eq!(points.len(), 4);
+    let films: Vec<LubricationRecord> = points.iter().map(|point| point.lubrication.unwrap()).collect();
+    for pair in films.windows(2) {
+        assert!(
+            pair[1].mean_film < pair[0].mean_film && pair[1].solid_share >= pair[0].solid_share,
+            "{pair:?}"
+        );
+    }
+    assert!(films[0].solid_share == 0.0 && films[3].solid_share > 0.5, "{films:?}");
+}
+
+/// The pressure that the bodies bear is the load, who touches is where solids press, and the film is the gap.
+#[test]
+fn the_fields_of_a_film_belong_together() {
+    let contact = at_rest(&parsed(&case(&format!("{OIL}speed = \"20 mm/s\"\n"))));
+    let [(point, film)] = &films(&contact)[..] else { panic!("one point") };
+    let field =
+        |name: &str| contact.fields.fields.iter().find(|field| field.name == name).unwrap().values.clone();
+    let (oil, solids, pressure) = (field("oil_pressure"), field("solid_pressure"), field("pressure"));
+    let (gap, touches, cavity) = (field("gap"), field("contact"), field("cavity"));
+    let area = 11e-6 * 11e-6;
+    assert!((area * pressure.sum() / 6.0 - 1.0).abs() < 1e-6);
+    assert!(
+        (area * solids.sum() / 6.0 - film.solid_share).abs() < 1e-6
+            && (0.01..0.9).contains(&film.solid_share)
+    );
+    assert!((touches.sum() * area / point.contact_area - 1.0).abs() < 1e-12);
+    for cell in pressure.indexed_iter().map(|(cell, _)| cell) {
+        assert_eq!(oil[cell] + solids[cell], pressure[cell]);
+        assert_eq!(touches[cell] > 0.0, solids[cell] > 0.0);
+        assert!(solids[cell] == 0.0 || (gap[cell] - 2e-9).abs() < 1e-11, "{}", gap[cell]);
+        assert!(oil[cell] == 0.0 || cavity[cell] == 0.0);
+    }
+    assert_eq!(gap.iter().copied().fold(f64::INFINITY, f64::min), film.min_film);
+}
+
+/// ISO VG 46 has 39.7 mPa s and 20.7 1/GPa at 40 °C.
+#[test]
+fn an_oil_by_its_name_is_that_of_its_numbers() {
+    let named =
+        "[temperature]\nbulk = [\"30 °C\", \"50 °C\"]\n[lubrication]\noil = \"ISO VG 46\"\nspeed = 0.5\n";
+    let numbers = OIL.replace("40 mPa s", "39.7 mPa s").replace("20 1", "20.7 1") + "speed = 0.5\n";
+    let [named, numbers] =
+        [named, &numbers].map(|oil| films(&at_rest(&parsed(&case(oil))))[0].1.central_film);
+    assert!((named / numbers - 1.0).abs() < 2e-3, "{named} {numbers}");
+}
+
+/// The pressure of a fluid at one end lifts a body whose approach is prescribed, as Poiseuille's flow says: between rigid
+/// parallel faces it falls evenly.
+#[test]
+fn a_pressure_from_outside_falls_along_the_gap() {
+    let text = r#"
+[lower]
+young = "210 GPa"
+poisson = 0.3
+topography = { form = "flat", shape = [40, 8], pitch = "10 um" }
+[upper]
+young = "inf"
+poisson = 0.3
+topography = { form = "flat" }
+[contact]
+approach = "-10 um"
+boundary = ["free", "periodic"]
+[lubrication]
+viscosity = "40 mPa s"
+law = "constant"
+compressible = false
+inlet_pressure = "1 MPa"
+speed = 0
+"#;
+    let contact = at_rest(&parsed(text));
+    let pressure = &contact.fields.fields.iter().find(|field| field.name == "oil_pressure").unwrap().values;
+    for (ix, row) in pressure.outer_iter().enumerate() {
+        let expected = 1e6 * (1.0 - (ix as f64 + 0.5) / 40.0);
+        assert!(row.iter().all(|p| (p - expected).abs() < 2e3), "{ix}: {row} {expected}");
+    }
+}
+
+#[test]
+fn films_that_are_not_to_be_trusted_are_told() {
+    let told = |oil: &str| at_rest(&parsed(&case(oil))).warnings.join("\n");
+    let coarse = told(&format!("{OIL}speed = \"10 mm/s\"\n"));
+    assert!(coarse.contains("the grid decides who bears the load: at 10 mm/s the solids bear"), "{coarse}");
+    let fast = told(&format!("{OIL}speed = \"20 m/s\"\n"));
+    assert!(fast.contains("the inlet is too short at 20 m/s, and the film is starved"), "{fast}");
+    let plain = OIL.replace("limiting_stress = 0.05\nboundary_friction = 0.12\n", "");
+    let dry = told(&format!("{plain}speed = \"1 mm/s\"\n"));
+    assert!(dry.contains("give `boundary_friction` in [lubrication]"), "{dry}");
+    let sheared = told(&format!("{plain}speed = \"0.5 m/s\"\n"));
+    assert!(sheared.contains("under pressure they shear at a limiting stress"), "{sheared}");
+    // Nothing is pressed: no contact has an inlet.
+    let apart =
+        case(&format!("{OIL}speed = \"0.5 m/s\"\n")).replace("load = \"6 N\"", "approach = \"-1 um\"");
+    let apart = at_rest(&parsed(&apart));
+    assert!(!apart.warnings.join("\n").contains("inlet"), "{:?}", apart.warnings);
+    let barus = told(&format!("{OIL}law = \"barus\"\nspeed = \"0.5 m/s\"\n"));
+    assert!(barus.contains("Barus' law of viscosity is far too stiff above some 300 MPa"), "{barus}");
+}
+
+/// A disc that passes under a ball at rest, with this topography and these keys.
+fn passing(disc: &str, keys: &str) -> String {
+    format!(
+        r#"
+[lower]
+material = "steel"
+hardness = inf
+topography = {{ shape = [40, 32], pitch = "13 um", {disc} }}
+{keys}
+[upper]
+material = "steel"
+hardness = inf
+topography = {{ form = "sphere", radius = "10 mm" }}
+[contact]
+load = "6 N"
+{OIL}[motion]
+strategy = "shift"
+speed_upper = 0
+control = "step-load"
+"#
+    )
+}
+
+const GROUND: &str = r#"generate = "low-pass", sq = "60 nm", cutoff = "78 um""#;
+
+#[test]
+fn a_smooth_disc_that_moves_under_a_ball_has_the_steady_film() {
+    let steady = case(&format!("{OIL}speed = \"0.2 m/s\"\n"))
+        .replace(", plus = [{ generate = \"low-pass\", sq = \"60 nm\", cutoff = \"66 um\" }]", "")
+        .replace("shape = [48, 40], pitch = \"11 um\"", "shape = [40, 32], pitch = \"13 um\"");
+    let (_, steady) = films(&at_rest(&parsed(&steady)))[0];
+    let folder = tempfile::TempDir::new().unwrap();
+    let text = passing("form = \"flat\"", "") + "speed_lower = \"0.4 m/s\"\nstride = 5\n";
+    let (_, results) = run(&parsed(&text), folder.path());
+    let steps = results.steps().unwrap();
+    assert_eq!(steps.len(), 8);
+    for step in &steps {
+        let film = step.film.unwrap();
+        assert!((film.mean_film / steady.mean_film - 1.0).abs() < 1e-5, "{film:?} {steady:?}");
+        assert!((film.traction_coefficient / steady.traction_coefficient - 1.0).abs() < 1e-5);
+        // The disc at 0.4 m/s drags the ball along +x: the ball holds it back.
+        assert!((step.tangential_force + film.traction_coefficient * step.load).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn interrupted_passes_of_a_ground_disc_go_on_to_the_same_bits() {
+    let text = passing(GROUND, "") + "speed_lower = \"60 mm/s\"\npasses = 3\nstride = 4\n";
+    let passes = goes_on(&parsed(&text)).results.passes().unwrap();
+    assert_eq!(passes.len(), 3);
+    let film = |pass: usize| passes[pass].film.unwrap();
+    // From the second pass on the roughness has filled the contact, and passes are alike.
+    assert!((film(2).mean_film / film(1).mean_film - 1.0).abs() < 1e-3, "{passes:?}");
+    assert!(film(1).solid_share > 0.0 && film(1).min_film < 0.5 * film(1).mean_film);
+}
+
+/// Wear acts where solids touch, and only there.
+#[test]
+fn only_what_the_solids_bear_wears() {
+    let lost = |speed: &str| {
+        let folder = tempfile::TempDir::new().unwrap();
+        let wear = "wear = { coefficient = \"1e-9 mm3/(N m)\" }\n";
+        let text = passing(GROUND, wear) + &format!("speed_lower = \"{speed}\"\nstride = 8\n");
+        let (_, results) = run(&parsed(&text), folder.path());
+        let pass = results.passes().unwrap().remove(0);
+        let steps = results.steps().unwrap();
+        let borne: f64 = steps.iter().map(|step| step.load * step.film.unwrap().solid_share).sum();
+        (pass.lost("wear")[0], 1e-18 * borne * 8.0 * 13e-6)
+    };
+    assert_eq!(lost("10 m/s").0, 0.0);
+    let (worn, expected) = lost("10 mm/s");
+    assert!(worn > 0.0 && (worn / expected - 1.0).abs() < 1e-6, "{worn:e} {expected:e}");
+}
