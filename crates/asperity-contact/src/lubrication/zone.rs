@@ -76,7 +76,8 @@ impl ContactZone {
     }
 
     /// Returns the rms of a gap in the contact about the second-order surface closest to it: the composite roughness
-    /// of both bodies. `None` in fewer than 20 cells, or if a smooth form may have left it.
+    /// of both bodies. Returns `None` for fewer than 20 cells, or below a thousandth of the range of the gap: so much of
+    /// a smooth form differs from that surface.
     pub fn roughness(&self, gap: &Field, grid: &Grid) -> Option<Metre> {
         /// Fewest cells, and the least share of the range of the gap that is roughness.
         const FEWEST: usize = 20;

@@ -76,7 +76,8 @@ impl LubricatedBodies {
         let half = half.map(|(grid, half)| self.measured(&half, &grid, speed));
         let load = forces.oil_load + forces.solid_load;
         let pressure = &solution.film.oil_pressure + &solution.film.solid_pressure;
-        let share = |(cell, p): (usize, &f64)| p / pair.bounds(&pair.at_rest()).upper().value(cell);
+        let hardness = pair.bounds(&pair.at_rest());
+        let share = |(cell, p): (usize, &f64)| p / hardness.upper().value(cell);
         let hardness_share =
             if pair.yields() { pressure.iter().enumerate().map(share).fold(0.0, f64::max) } else { 0.0 };
         let hamrock_dowson_film = self.hamrock_dowson(speed, load);

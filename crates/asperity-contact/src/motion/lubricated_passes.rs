@@ -23,8 +23,8 @@ use crate::units::{MetrePerSecond, Second};
 /// Most times that a step of time is halved.
 const HALVINGS: usize = 6;
 
-/// Names of the fields of a film in the state of the lower body, with their units: the oil in each cell, the pressures
-/// the cavity, and the approach. They lie in the frame of the contact.
+/// Names of the fields of a film in the state of the lower body, with their units: the oil in each cell, the
+/// pressures, the cavity, and the approach. They lie in the frame of the contact.
 const KEPT: [(&str, &str); 5] = [
     ("oil_content", "m"),
     ("oil_pressure", "Pa"),

@@ -550,8 +550,8 @@ const ROLLING_UNLIKE: Cost = Cost { convolutions: 230.0, work: 5.0 };
 /// the number of cells.
 const STEADY: Cost = Cost { convolutions: 135.0, work: 2.5 };
 const STEADY_GROWTH: f64 = 0.6;
-/// A steady film of oil at each speed, with that on half as many cells, the exponent by which it grows with the number
-/// of cells, and the numbers of each cell in memory: most belong to the factor of the near matrix.
+/// Cost of a film of oil at a speed, together with the film on half as many cells; the exponent of its growth with the
+/// number of cells; and the numbers that it keeps for each cell, most of them in the factor of the near matrix.
 const FILM: Cost = Cost { convolutions: 300.0, work: 6.0 };
 const FILM_GROWTH: f64 = 0.7;
 const FILM_MEMORY: f64 = 1500.0;

@@ -7,7 +7,7 @@ use asperity_contact::motion::{Path, Strategy};
 use asperity_surface::Form;
 
 /// Tables that a film of oil excludes.
-const OTHERS: [&str; 5] = ["sliding", "history", "steady", "friction", "adhesion"];
+const OTHERS: [&str; 4] = ["sliding", "history", "steady", "adhesion"];
 
 /// Bodies that pass over each other by a shift.
 const SHIFTS: &str = r#"motion = { strategy = "shift", speed_lower = 1, speed_upper = 0 }"#;
