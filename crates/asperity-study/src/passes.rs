@@ -195,7 +195,7 @@ impl Passes {
         let passes = self.done()?;
         self.warnings.extend(self.limits.all());
         self.warnings.extend(review::motion(&self.case, shapes, &passes));
-        self.warnings.extend(with::doubts_after_passes(&passes));
+        self.warnings.extend(with::doubts_after_passes(&self.case.interface, &passes));
         let left = self.simulation.plastic_volumes();
         let plasticity = (!left.is_empty()).then(|| -> Result<PlasticRecord> {
             let steps = self.writer.results().steps()?;

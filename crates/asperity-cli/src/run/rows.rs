@@ -191,10 +191,11 @@ impl Rows {
             cells.push(Cell::new("speed", "speed", speed));
         }
         cells.push(Cell::new("load", "load", point.load));
-        if let Some(film) = point.lubrication {
+        if let Some(lubrication) = point.lubrication {
+            let film = lubrication.film;
             cells.extend([
                 Cell::new("film", "mean_film", film.mean_film),
-                Cell::new("central", "central_film", film.central_film),
+                Cell::new("central", "central_film", lubrication.central_film),
                 Cell::new("least", "min_film", film.min_film),
                 Cell::new("λ", "lambda", film.lambda),
                 Cell::share("solids", film.solid_share),

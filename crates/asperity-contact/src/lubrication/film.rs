@@ -115,7 +115,10 @@ impl Film {
     ///
     /// # Errors
     /// The errors of `part`.
-    pub(crate) fn from_parts(part: impl Fn(&str) -> Result<Field>, approach: Metre) -> Result<Self> {
+    pub(crate) fn from_parts<E>(
+        part: impl Fn(&str) -> std::result::Result<Field, E>,
+        approach: Metre,
+    ) -> std::result::Result<Self, E> {
         let [oil_pressure, solid_pressure, cavity] = [part(PARTS[0])?, part(PARTS[1])?, part(PARTS[2])?];
         Ok(Self { oil_pressure, solid_pressure, cavity, approach })
     }

@@ -3,18 +3,16 @@
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::lubrication::{
-    ContactZone, Film, FilmForces, FilmParams, FilmProblem, FilmSolution, FilmSpeeds, Lubrication, OilStep,
-    solve_film,
+    Film, FilmParams, FilmProblem, FilmSolution, FilmSpeeds, Lubrication, OilStep, solve_film,
 };
 use crate::motion::body::State;
 use crate::motion::contact::Contact;
 use crate::motion::control::LoadControl;
 use crate::motion::kinematics::{Motion, Strategy};
-use crate::motion::lubricated::{mean, share_of_cavity};
+use crate::motion::lubricated_measure::FilmMeasure;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Path;
-use crate::motion::record::FilmRecord;
 use crate::motion::watch::Progress;
 use crate::operator::{Boundary, Operator};
 use crate::solver::{Bounds, Control, Params, Solution, Stats};
@@ -23,15 +21,10 @@ use crate::units::{MetrePerSecond, Second};
 /// Most times that a step of time is halved.
 const HALVINGS: usize = 6;
 
-/// Names of the fields of a film in the state of the lower body, with their units: the oil in each cell, the
-/// pressures, the cavity, and the approach. They lie in the frame of the contact.
-const KEPT: [(&str, &str); 5] = [
-    ("oil_content", "m"),
-    ("oil_pressure", "Pa"),
-    ("oil_solid_pressure", "Pa"),
-    ("oil_cavity", "1"),
-    ("oil_approach", "m"),
-];
+/// Names of two fields in the state of the lower body, beside those of [`Film::parts`]: the oil in each cell, and the
+/// approach. All of them lie in the frame of the contact.
+const OIL: &str = "oil_content";
+const APPROACH: &str = "oil_approach";
 
 /// Checks what lubricated bodies need to pass over each other.
 pub(super) fn check(pair: &Pair, boundary: Boundary, motion: &Motion, params: &Params) -> Result<()> {
@@ -115,21 +108,20 @@ impl MovingFilm<'_> {
         let shape = self.film.cavity.raw_dim();
         let oil = Field::from_shape_vec(shape, self.oil.clone()).expect("a value for each cell");
         let approach = Field::from_elem(shape, self.film.approach);
-        let Film { oil_pressure, solid_pressure, cavity, .. } = &self.film;
-        let values = [&oil, oil_pressure, solid_pressure, cavity, &approach].map(Clone::clone);
-        for ((name, unit), values) in KEPT.into_iter().zip(values) {
+        let mut keep = |name: &str, unit: &str, values: Field| {
             pair.lower.state.insert(name.to_owned(), State { unit: unit.to_owned(), values });
-        }
+        };
+        self.film.parts().into_iter().for_each(|(name, unit, values)| keep(name, unit, values.clone()));
+        keep(OIL, "m", oil);
+        keep(APPROACH, "m", approach);
     }
 }
 
 /// Returns the film that a pass has left in the state of the lower body, with the oil in each cell.
 fn kept(pair: &Pair) -> Option<(Film, Vec<f64>)> {
-    let field = |index: usize| Some(pair.lower.state.get(KEPT[index].0)?.values.clone());
-    let [oil, oil_pressure, solid_pressure, cavity] = [field(0)?, field(1)?, field(2)?, field(3)?];
-    let approach = *field(4)?.first()?;
-    let oil = oil.iter().copied().collect();
-    Some((Film { oil_pressure, solid_pressure, cavity, approach }, oil))
+    let field = |name: &str| Some(&pair.lower.state.get(name)?.values);
+    let film = Film::from_parts(|name| field(name).cloned().ok_or(()), *field(APPROACH)?.first()?).ok()?;
+    Some((film, field(OIL)?.iter().copied().collect()))
 }
 
 impl Solver<'_> {
@@ -144,12 +136,12 @@ impl Solver<'_> {
     ) -> Result<Pass> {
         let refused = Error::Unsupported("lubricated bodies that pass over each other in an overlap");
         let speed = mean_speed(self.motion).ok_or(refused)?;
-        let (pitch, columns) = (pair.pitch()[0], pair.lower.columns());
-        let mut operator = self.operators.on(pair.lower_grid().shape);
+        let (grid, pitch, columns) = (pair.lower_grid(), pair.pitch()[0], pair.lower.columns());
+        let mut operator = self.operators.on(grid.shape);
         let mut gap = pair.initial_gap(&self.positions[0]);
         let first = FilmProblem { speed, ..lubrication.problem(&gap, control) };
         let mut steady = FilmSpeeds::new(&mut *operator, &first, FilmParams::default())?;
-        let zone = ContactZone::new(&steady.dry().solid_pressure, &pair.lower_grid(), boundary);
+        let measure = FilmMeasure::new(pair, *lubrication, &gap, &steady.dry().solid_pressure, boundary);
         let (mut begins, (film, oil)) = match kept(pair) {
             Some(kept) => (None, kept),
             None => {
@@ -177,10 +169,13 @@ impl Solver<'_> {
                     .advance(&before, &gap, duration, HALVINGS)
                     .map_err(|error| self.at_position(index, error))?,
             };
-            let (contact, film) =
-                self.lubricated_contact(index, pair, lubrication, &solution, &gap, &zone, boundary);
-            let load = contact.load;
-            contacts.push(contact);
+            let problem = FilmProblem { speed, ..lubrication.problem(&gap, control) };
+            let hardness = pair.yields().then(|| pair.bounds(position));
+            let sliding = self.motion.sliding_speed();
+            let (forces, film) = measure.record(&problem, &solution, &grid, sliding, hardness.as_ref());
+            let load = forces.oil_load + forces.solid_load;
+            let borne = [load, film.traction_coefficient];
+            contacts.push(self.lubricated_contact(index, pair, &solution, &gap, borne));
             films.push(film);
             self.watch.position(&Progress { solved: index + 1, load, ..self.progress });
         }
@@ -189,29 +184,20 @@ impl Solver<'_> {
         Ok(Pass { films, ..Pass::new(contacts, after, self.laws) })
     }
 
-    /// Returns the contact of a film: laws see the pressure of the solids; the load is that of oil and solids.
-    #[expect(clippy::too_many_arguments, reason = "the film, where it is, and what is between the bodies")]
+    /// Returns the contact of a film of this load and traction: laws see the pressure of the solids; the load is that of
+    /// oil and solids.
     fn lubricated_contact(
         &self,
         index: usize,
         pair: &Pair,
-        lubrication: &Lubrication,
         solution: &FilmSolution,
         gap: &Field,
-        zone: &ContactZone,
-        boundary: Boundary,
-    ) -> (Contact, FilmRecord) {
-        let grid = pair.lower_grid();
+        [load, traction]: [f64; 2],
+    ) -> Contact {
         let FilmSolution { film, thickness, residual, iterations, convolutions, .. } = solution;
-        let speed = mean_speed(self.motion).unwrap_or_default();
-        let problem = FilmProblem { speed, ..lubrication.problem(gap, Control::Approach(film.approach)) };
-        let sliding = self.motion.sliding_speed();
-        let forces = FilmForces::new(&problem, solution, &grid, boundary, sliding, lubrication.shear);
-        let load = forces.oil_load + forces.solid_load;
-        let traction = forces.friction_coefficient(lubrication.solid_friction);
         let stats = Stats { iterations: *iterations, convolutions: *convolutions as f64, ..Stats::default() };
         let solids = Solution {
-            grid,
+            grid: pair.lower_grid(),
             initial_gap: gap.clone(),
             bounds: Bounds::ELASTIC,
             pressure: film.solid_pressure.clone(),
@@ -220,17 +206,8 @@ impl Solver<'_> {
             residual: *residual,
             stats,
         };
-        let direction = self.motion.strategy.direction();
         // Bodies that roll have 0, and not −0.
-        let tangential_force = direction * traction * load + 0.0;
-        let contact = Contact { load, tangential_force, ..self.contact(index, &solids) };
-        let film = FilmRecord {
-            mean_film: mean(thickness, &zone.cells(&grid)),
-            min_film: thickness.iter().copied().fold(f64::INFINITY, f64::min),
-            solid_share: forces.solid_share(),
-            traction_coefficient: traction,
-            cavity_share: share_of_cavity(film),
-        };
-        (contact, film)
+        let tangential_force = self.motion.strategy.direction() * traction * load + 0.0;
+        Contact { load, tangential_force, ..self.contact(index, &solids) }
     }
 }

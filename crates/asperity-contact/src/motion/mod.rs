@@ -19,6 +19,7 @@ mod extrapolation;
 mod law;
 mod loading;
 mod lubricated;
+mod lubricated_measure;
 mod lubricated_passes;
 mod memory;
 mod observed;

@@ -263,7 +263,7 @@ pub fn answering_rank(row: StepRow<'_>) -> Option<f64> {
     match row {
         StepRow::Increment(row) => row.interface.as_ref().map(|_| -row.load),
         StepRow::Point(row) => {
-            let of_oil = row.lubrication.map(|film| -film.traction_coefficient);
+            let of_oil = row.lubrication.map(|film| -film.film.traction_coefficient);
             row.steady.map(|steady| steady.drag_coefficient).or(of_oil)
         }
         StepRow::Update(_) | StepRow::Pass(_) => None,
@@ -335,6 +335,7 @@ pub fn doubts_after_increments(increments: &[IncrementRecord]) -> Option<String>
 }
 
 /// Returns reasons in the passes of a motion not to trust them.
-pub fn doubts_after_passes(passes: &[PassRecord]) -> Option<String> {
-    adhesion::depends_on_history(passes)
+pub fn doubts_after_passes(interface: &Interfaces, passes: &[PassRecord]) -> Vec<String> {
+    let of_oil = interface.lubrication.iter().flat_map(|oil| lubrication::after_passes(oil, passes));
+    adhesion::depends_on_history(passes).into_iter().chain(of_oil).collect()
 }

@@ -166,7 +166,7 @@ fn bodies_that_attract_each_other_have_a_section_with_their_curve() {
 fn the_page_of_lubricated_bodies_tells_their_film() {
     let oil = "lubrication = { viscosity = 0.04, pressure_viscosity = 2e-8, limiting_stress = 0.05, speed = 0.05 }\n";
     let computed = Computed::of(&(AT_REST.to_owned() + oil));
-    let film = computed.results().sweep().unwrap()[0].lubrication.unwrap();
+    let film = computed.results().sweep().unwrap()[0].lubrication.unwrap().film;
     let page = computed.page();
     let words = format!("the traction coefficient is {}", format_number_digits(film.traction_coefficient, 3));
     assert!(page.contains("At 50 mm/s the film is") && page.contains(&words), "{words}");

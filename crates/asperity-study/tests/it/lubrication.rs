@@ -1,6 +1,6 @@
 //! Lubricated bodies of a case: speeds one after another, resuming, oils by name, seals, doubts.
 
-use asperity_contact::motion::{LubricationRecord, SweepRecord};
+use asperity_contact::motion::{FilmRecord, LubricationRecord, SweepRecord};
 use asperity_study::{Outcome, StaticResult};
 
 use crate::resume::goes_on;
@@ -41,7 +41,7 @@ fn an_interrupted_stribeck_curve_goes_on_to_the_same_bits() {
     let text = case(&format!("{OIL}speeds = [\"1 m/s\", \"0.1 m/s\", \"30 mm/s\", \"1 mm/s\"]\n"));
     let points = goes_on(&parsed(&text)).results.sweep().unwrap();
     assert_eq!(points.len(), 4);
-    let films: Vec<LubricationRecord> = points.iter().map(|point| point.lubrication.unwrap()).collect();
+    let films: Vec<FilmRecord> = points.iter().map(|point| point.lubrication.unwrap().film).collect();
     for pair in films.windows(2) {
         assert!(
             pair[1].mean_film < pair[0].mean_film && pair[1].solid_share >= pair[0].solid_share,
@@ -55,7 +55,8 @@ fn an_interrupted_stribeck_curve_goes_on_to_the_same_bits() {
 #[test]
 fn the_fields_of_a_film_belong_together() {
     let contact = at_rest(&parsed(&case(&format!("{OIL}speed = \"20 mm/s\"\n"))));
-    let [(point, film)] = &films(&contact)[..] else { panic!("one point") };
+    let [(point, lubrication)] = &films(&contact)[..] else { panic!("one point") };
+    let film = lubrication.film;
     let field =
         |name: &str| contact.fields.fields.iter().find(|field| field.name == name).unwrap().values.clone();
     let (oil, solids, pressure) = (field("oil_pressure"), field("solid_pressure"), field("pressure"));
@@ -169,7 +170,7 @@ fn a_smooth_disc_that_moves_under_a_ball_has_the_steady_film() {
     let steady = case(&format!("{OIL}speed = \"0.2 m/s\"\n"))
         .replace(", plus = [{ generate = \"low-pass\", sq = \"60 nm\", cutoff = \"66 um\" }]", "")
         .replace("shape = [48, 40], pitch = \"11 um\"", "shape = [40, 32], pitch = \"13 um\"");
-    let (_, steady) = films(&at_rest(&parsed(&steady)))[0];
+    let steady = films(&at_rest(&parsed(&steady)))[0].1.film;
     let folder = tempfile::TempDir::new().unwrap();
     let text = passing("form = \"flat\"", "") + "speed_lower = \"0.4 m/s\"\nstride = 5\n";
     let (_, results) = run(&parsed(&text), folder.path());
@@ -211,4 +212,24 @@ fn only_what_the_solids_bear_wears() {
     assert_eq!(lost("10 m/s").0, 0.0);
     let (worn, expected) = lost("10 mm/s");
     assert!(worn > 0.0 && (worn / expected - 1.0).abs() < 1e-6, "{worn:e} {expected:e}");
+}
+
+/// Passes are compared with the limits of their models, as steady films are.
+#[test]
+fn passes_beyond_their_models_are_told() {
+    let told = |speed: &str, edit: [&str; 2]| {
+        let folder = tempfile::TempDir::new().unwrap();
+        let text = passing(GROUND, "") + &format!("speed_lower = \"{speed}\"\nstride = 20\n");
+        let (summary, _) = run(&parsed(&text.replace(edit[0], edit[1])), folder.path());
+        summary.warnings.join("\n")
+    };
+    let mixed = told("20 mm/s", ["boundary_friction = 0.12\n", ""]);
+    assert!(mixed.contains("in pass 1 the solids bear") && mixed.contains("depends on the grid"), "{mixed}");
+    assert!(mixed.contains("give `boundary_friction` in [lubrication]"), "{mixed}");
+    let fast = told("20 m/s", ["limiting_stress = 0.05\n", "law = \"barus\"\n"]);
+    for words in ["the inlet is too short in pass 1", "Barus' law", "shear at a limiting stress"] {
+        assert!(fast.contains(words), "{words}: {fast}");
+    }
+    let soft = told("1 m/s", ["hardness = inf", "hardness = \"0.4 GPa\""]);
+    assert!(soft.contains("times the hardness, which does not limit it"), "{soft}");
 }

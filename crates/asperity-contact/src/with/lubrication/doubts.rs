@@ -3,7 +3,7 @@
 use super::Lubricant;
 use super::views::{FilmOfPoint, films_at_speeds};
 use crate::lubrication::ViscosityLaw;
-use crate::motion::{LubricationRecord, SweepRecord};
+use crate::motion::{FilmRecord, LubricationRecord, PassRecord, SweepRecord};
 use crate::units::{Dimension, Metre, MetrePerSecond, Pascal, format, format_number_digits};
 use crate::with::views::percent;
 
@@ -31,44 +31,73 @@ const NEWTONIAN: f64 = 0.12;
 /// Returns reasons in the points of a sweep not to trust its films; each names the speed at which it is worst.
 pub(in crate::with) fn after_points(oil: &Lubricant, points: &[SweepRecord]) -> Vec<String> {
     let films = films_at_speeds(points);
-    let at = |speed: &MetrePerSecond| format(*speed, Dimension::Speed);
-    // The film for which a value is largest above a limit, with its speed.
-    let worst = |value: &dyn Fn(&LubricationRecord) -> f64, limit: f64| {
-        let beyond = films.iter().filter(|at| value(&at.film) > limit);
+    let at = |speed: MetrePerSecond| format!("at {}", format(speed, Dimension::Speed));
+    let mut doubts = of_the_grid(&films, at);
+    doubts.extend(of_films(oil, &films.iter().map(|of| (at(of.speed), of.film.film)).collect::<Vec<_>>()));
+    doubts
+}
+
+/// Returns reasons in the passes of a motion not to trust their films; each names the pass in which it is worst.
+pub(in crate::with) fn after_passes(oil: &Lubricant, passes: &[PassRecord]) -> Vec<String> {
+    let films = passes.iter().filter_map(|pass| Some((format!("in pass {}", pass.pass), pass.film?)));
+    let films: Vec<_> = films.collect();
+    let is_mixed = |(_, film): &&(String, FilmRecord)| (MATTERS..1.0 - MATTERS).contains(&film.solid_share);
+    let mixed = films.iter().find(is_mixed).map(|(place, film)| {
+        format!(
+            "{place} the solids bear {} of the load: in mixed friction this share depends on the grid; compare it with that on cells of half the size",
+            percent(film.solid_share)
+        )
+    });
+    mixed.into_iter().chain(of_films(oil, &films)).collect()
+}
+
+/// Returns what films on half as many cells say about the grid.
+fn of_the_grid(films: &[FilmOfPoint], at: impl Fn(MetrePerSecond) -> String) -> Vec<String> {
+    let worst = |value: fn(&LubricationRecord) -> f64, limit: f64| {
+        let beyond = films.iter().filter(|of| value(&of.film) > limit);
         let worst = beyond.max_by(|a, b| value(&a.film).total_cmp(&value(&b.film)));
-        worst.map(|FilmOfPoint { speed, film }| ((speed, film), value(film)))
+        worst.map(|FilmOfPoint { speed, film }| (at(*speed), film, value(film)))
     };
-    let mut doubts = Vec::new();
     let share = |film: &LubricationRecord| film.solid_share_uncertainty.unwrap_or(0.0);
     let thickness =
-        |film: &LubricationRecord| film.mean_film_uncertainty.map_or(0.0, |off| off / film.mean_film);
-    if let Some(((speed, film), off)) = worst(&share, UNCERTAIN[1]) {
+        |film: &LubricationRecord| film.mean_film_uncertainty.unwrap_or(0.0) / film.film.mean_film;
+    let mut doubts = Vec::new();
+    if let Some((place, film, off)) = worst(share, UNCERTAIN[1]) {
         doubts.push(format!(
-            "the grid decides who bears the load: at {} the solids bear {}, and {} more or less on half as many cells along both axes; \
+            "the grid decides who bears the load: {place} the solids bear {}, and {} more or less on half as many cells along both axes; \
              asperities and the wedges of oil between them need a finer grid",
-            at(speed),
-            percent(film.solid_share),
+            percent(film.film.solid_share),
             percent(off)
         ));
-    } else if let Some(((speed, _), off)) = worst(&thickness, UNCERTAIN[0]) {
+    } else if let Some((place, _, off)) = worst(thickness, UNCERTAIN[0]) {
         doubts.push(format!(
-            "the grid decides the film: at {} its mean differs by {} on half as many cells along both axes; take a finer grid",
-            at(speed),
+            "the grid decides the film: {place} its mean differs by {} on half as many cells along both axes; take a finer grid",
             percent(off)
         ));
     }
-    if let Some(FilmOfPoint { speed, .. }) = films.iter().find(|at| at.film.mean_film_uncertainty.is_none()) {
+    if let Some(FilmOfPoint { speed, .. }) = films.iter().find(|of| of.film.mean_film_uncertainty.is_none()) {
         doubts.push(format!(
-            "at {} there is no film on half as many cells to compare with: the uncertainty of the grid is unknown",
-            at(speed)
+            "{} there is no film on half as many cells to compare with: the uncertainty of the grid is unknown",
+            at(*speed)
         ));
     }
-    let short = |film: &LubricationRecord| film.inlet_ratio.map_or(0.0, f64::recip);
-    if let Some(((speed, _), factor)) = worst(&short, STARVED) {
+    doubts
+}
+
+/// Returns reasons not to trust films, each with its place in words, as "at 1 m/s".
+fn of_films(oil: &Lubricant, films: &[(String, FilmRecord)]) -> Vec<String> {
+    // The film for which a value is largest above a limit, with its place.
+    let worst = |value: &dyn Fn(&FilmRecord) -> f64, limit: f64| {
+        let beyond = films.iter().filter(|(_, film)| value(film) > limit);
+        let worst = beyond.max_by(|(_, a), (_, b)| value(a).total_cmp(&value(b)));
+        worst.map(|(place, film)| (place, film, value(film)))
+    };
+    let mut doubts = Vec::new();
+    let short = |film: &FilmRecord| film.inlet_ratio.map_or(0.0, f64::recip);
+    if let Some((place, _, factor)) = worst(&short, STARVED) {
         doubts.push(format!(
-            "the inlet is too short at {}, and the film is starved: a fully flooded one begins {} times as far ahead of the centre of the \
+            "the inlet is too short {place}, and the film is starved: a fully flooded one begins {} times as far ahead of the centre of the \
              contact; make the grid longer along x",
-            at(speed),
             format_number_digits(factor, 3)
         ));
     }
@@ -77,48 +106,44 @@ pub(in crate::with) fn after_points(oil: &Lubricant, points: &[SweepRecord]) -> 
         ViscosityLaw::Barus => (BARUS, "Barus' law of viscosity is far too stiff"),
         ViscosityLaw::Roelands => (ROELANDS, "Roelands' law of viscosity has not been measured"),
     };
-    if let Some(((speed, _), most)) = worst(&|film| film.max_oil_pressure, limit) {
+    if let Some((place, _, most)) = worst(&|film| film.max_oil_pressure, limit) {
         doubts.push(format!(
-            "the oil has up to {} at {}: {name} above some {}",
+            "the oil has up to {} {place}: {name} above some {}",
             format(most, Dimension::Pressure),
-            at(speed),
             format(limit, Dimension::Pressure)
         ));
     }
-    let thin =
-        |film: &LubricationRecord| if film.solid_share < 0.5 { MOLECULES / film.mean_film } else { 0.0 };
-    if let Some(((speed, film), _)) = worst(&thin, 1.0) {
+    let thin = |film: &FilmRecord| if film.solid_share < 0.5 { MOLECULES / film.mean_film } else { 0.0 };
+    if let Some((place, film, _)) = worst(&thin, 1.0) {
         doubts.push(format!(
-            "the film of {} at {} is a few molecules thick, where oil is no continuum",
-            format(film.mean_film, Dimension::Length),
-            at(speed)
+            "the film of {} {place} is a few molecules thick, where oil is no continuum",
+            format(film.mean_film, Dimension::Length)
         ));
     }
-    if let Some(((speed, film), _)) =
-        worst(&|film| film.solid_share, MATTERS).filter(|_| oil.boundary_friction.is_none())
+    if oil.boundary_friction.is_none()
+        && let Some((place, film, _)) = worst(&|film| film.solid_share, MATTERS)
     {
         doubts.push(format!(
-            "the solids bear {} of the load at {}, and the traction leaves their friction out: give `boundary_friction` in [lubrication]",
-            percent(film.solid_share),
-            at(speed)
+            "the solids bear {} of the load {place}, and the traction leaves their friction out: give `boundary_friction` in [lubrication]",
+            percent(film.solid_share)
         ));
     }
-    let is_newtonian = oil.limiting_stress.is_none() && oil.eyring_stress.is_none();
-    let of_oil = |film: &LubricationRecord| {
+    let of_oil = |film: &FilmRecord| {
         film.traction_coefficient - oil.boundary_friction.unwrap_or(0.0) * film.solid_share
     };
-    if let Some(((speed, _), traction)) = worst(&of_oil, NEWTONIAN).filter(|_| is_newtonian) {
+    if oil.limiting_stress.is_none()
+        && oil.eyring_stress.is_none()
+        && let Some((place, _, traction)) = worst(&of_oil, NEWTONIAN)
+    {
         doubts.push(format!(
-            "the traction coefficient of the oil at {} is {}, more than oils have: under pressure they shear at a limiting stress; give \
+            "the traction coefficient of the oil {place} is {}, more than oils have: under pressure they shear at a limiting stress; give \
              `limiting_stress` (0.03 to 0.1) or `eyring_stress` in [lubrication]",
-            at(speed),
             format_number_digits(traction, 3)
         ));
     }
-    if let Some(((speed, _), share)) = worst(&|film| film.hardness_share, 1.0) {
+    if let Some((place, _, share)) = worst(&|film| film.hardness_share, 1.0) {
         doubts.push(format!(
-            "at {} the pressure is up to {} times the hardness, which does not limit it under a film of oil",
-            at(speed),
+            "{place} the pressure is up to {} times the hardness, which does not limit it under a film of oil",
             format_number_digits(share, 3)
         ));
     }

@@ -7,7 +7,7 @@ mod rules;
 mod table;
 pub(super) mod views;
 
-pub(super) use doubts::after_points;
+pub(super) use doubts::{after_passes, after_points};
 pub use table::Lubricant;
 
 use crate::with::Rule;

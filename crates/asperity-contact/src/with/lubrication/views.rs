@@ -2,7 +2,7 @@
 
 use super::Lubricant;
 use crate::lubrication::{Oil, ViscosityLaw};
-use crate::motion::{LubricationRecord, PassRecord, SweepRecord};
+use crate::motion::{FilmRecord, LubricationRecord, PassRecord, SweepRecord};
 use crate::units::{Dimension, MetrePerSecond, format, format_digits, format_number, format_number_digits};
 use crate::with::views::{Answer, BesidePoints, OfPoints, percent};
 use asperity_base::choice::Choice;
@@ -13,30 +13,30 @@ pub(in crate::with) const OF_POINTS: [OfPoints; 3] = [
         column: "traction_coefficient",
         label: "traction coefficient",
         may_be_log: false,
-        value: |point| Some(point.lubrication?.traction_coefficient),
+        value: |point| Some(point.lubrication?.film.traction_coefficient),
         beside: &[],
     },
     OfPoints {
         column: "solid_share",
         label: "share of the solids in the load",
         may_be_log: false,
-        value: |point| Some(point.lubrication?.solid_share),
+        value: |point| Some(point.lubrication?.film.solid_share),
         beside: &[],
     },
     OfPoints {
         column: "mean_film",
         label: "film",
         may_be_log: true,
-        value: |point| Some(point.lubrication?.mean_film),
+        value: |point| Some(point.lubrication?.film.mean_film),
         beside: &[
             BesidePoints {
                 name: "mean over the contact",
-                value: |point| Some(point.lubrication?.mean_film),
+                value: |point| Some(point.lubrication?.film.mean_film),
                 is_dashed: false,
             },
             BesidePoints {
                 name: "least",
-                value: |point| Some(point.lubrication?.min_film),
+                value: |point| Some(point.lubrication?.film.min_film),
                 is_dashed: false,
             },
             BesidePoints {
@@ -101,28 +101,31 @@ fn with_uncertainty(value: &str, uncertainty: Option<f64>, write: impl Fn(f64) -
 }
 
 fn film_in_words(film: &LubricationRecord) -> String {
-    let thickness = format_digits(film.mean_film, Dimension::Length, 3);
-    let multiple = Dimension::Length.multiple(film.mean_film);
-    let off = film.mean_film_uncertainty.filter(|off| *off > 5e-4 * film.mean_film);
+    let thickness = format_digits(film.film.mean_film, Dimension::Length, 3);
+    let multiple = Dimension::Length.multiple(film.film.mean_film);
+    let off = film.mean_film_uncertainty.filter(|off| *off > 5e-4 * film.film.mean_film);
     with_uncertainty(&thickness, off, |off| {
         format!("{} {}", format_number_digits(off / multiple.factor, 1), multiple.symbol)
     })
 }
 
+fn lambda_in_words(film: &FilmRecord) -> String {
+    film.lambda.map_or(String::new(), |lambda| format!(" (λ = {})", format_number_digits(lambda, 2)))
+}
+
 fn friction_in_words(film: &LubricationRecord) -> String {
-    let friction = film.traction_coefficient;
+    let friction = film.film.traction_coefficient;
     let off = film.traction_uncertainty.filter(|off| *off > 5e-3 * friction);
     with_uncertainty(&format_number_digits(friction, 3), off, |off| format_number_digits(off, 1))
 }
 
 fn one(FilmOfPoint { speed, film }: &FilmOfPoint) -> Vec<Answer> {
     let speed = format(*speed, Dimension::Speed);
-    let lambda =
-        film.lambda.map_or(String::new(), |lambda| format!(" (λ = {})", format_number_digits(lambda, 2)));
+    let lambda = lambda_in_words(&film.film);
     let thickness = film_in_words(film);
     let friction = friction_in_words(film);
-    let solids = percent(film.solid_share);
-    let borne = if film.solid_share > 0.0 {
+    let solids = percent(film.film.solid_share);
+    let borne = if film.film.solid_share > 0.0 {
         format!("the solids bear {solids} of the load")
     } else {
         "the oil bears all of the load".to_owned()
@@ -162,7 +165,8 @@ pub(in crate::with) fn in_passes(passes: &[PassRecord]) -> Option<Answer> {
         name: "film".into(),
         about: "Mean film over the contact and the positions of the last pass.".into(),
         sentence: format!(
-            "{last} the film is {thickness} thick, the solids bear {} of the load, and the traction coefficient is {friction}.",
+            "{last} the film is {thickness} thick{}, the solids bear {} of the load, and the traction coefficient is {friction}.",
+            lambda_in_words(&film),
             percent(film.solid_share)
         ),
         value: thickness,
@@ -177,12 +181,12 @@ fn several(films: &[FilmOfPoint]) -> Vec<Answer> {
     let (Some(slowest), Some(fastest), Some(least), Some(most)) = (
         films.iter().min_by(by(|at| at.speed)),
         films.iter().max_by(by(|at| at.speed)),
-        films.iter().min_by(by(|at| at.film.traction_coefficient)),
-        films.iter().max_by(by(|at| at.film.traction_coefficient)),
+        films.iter().min_by(by(|at| at.film.film.traction_coefficient)),
+        films.iter().max_by(by(|at| at.film.film.traction_coefficient)),
     ) else {
         return Vec::new();
     };
-    let borne = |at: &FilmOfPoint| percent(at.film.solid_share);
+    let borne = |at: &FilmOfPoint| percent(at.film.film.solid_share);
     let value = friction_in_words(&least.film);
     vec![Answer {
         name: "least traction coefficient".into(),
