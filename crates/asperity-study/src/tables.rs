@@ -368,6 +368,7 @@ mod tests {
             approach: -1.0 / 3.0 * 1e-7,
             mean_gap: 1e-7,
             contact_area: 1e-10,
+            contact_area_corrected: 9e-11,
             contact_fraction: 1.0 / 7.0,
             largest_spot_cells: 7,
             max_pressure: 4e9,

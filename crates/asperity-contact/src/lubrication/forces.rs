@@ -62,11 +62,7 @@ impl FilmForces {
         let film = &solution.film;
         let (p, h) = (flat(&film.oil_pressure), flat(&solution.thickness));
         let cavity = flat(&film.cavity);
-        let stress = |k: usize| {
-            let viscosity = problem.oil.under(p[k]).viscosity;
-            let thickness = h[k].max(problem.boundary_film);
-            (1.0 - cavity[k]) * shear.stress(viscosity, sliding / thickness, p[k])
-        };
+        let stress = problem.shear_stress(solution, sliding, shear);
         let carried = problem.flow(*grid, boundary).entrained_films(p, cavity, h);
         let [inlet, outlet] = problem.ends;
         let behind = |face: usize| face.checked_sub(ny).map_or(inlet, |k| p[k]);
@@ -76,20 +72,41 @@ impl FilmForces {
         Self {
             oil_load: dx * dy * film.oil_pressure.sum(),
             solid_load: dx * dy * film.solid_pressure.sum(),
-            oil_shear: dx * dy * (0..p.len()).map(stress).sum::<f64>(),
+            oil_shear: dx * dy * stress.iter().sum::<f64>(),
             rolling: dy * rolling,
             slopes: dy * slopes,
         }
     }
 
-    /// Returns the share of the load that the solids bear.
+    /// Returns the share of the load that the solids bear; 0 without a load.
     pub fn solid_share(&self) -> f64 {
-        self.solid_load / (self.oil_load + self.solid_load)
+        self.over_load(self.solid_load)
+    }
+
+    /// Returns a force over the load; 0 without a load.
+    pub fn over_load(&self, force: Newton) -> f64 {
+        let load = self.oil_load + self.solid_load;
+        if load > 0.0 { force / load } else { 0.0 }
     }
 
     /// Returns the friction coefficient of the contact whose solids have the coefficient `solids`: shear of the
-    /// oil and friction of the solids over the load.
+    /// oil and friction of the solids over the load; 0 without a load.
     pub fn friction_coefficient(&self, solids: f64) -> f64 {
-        (self.oil_shear + solids * self.solid_load) / (self.oil_load + self.solid_load)
+        self.over_load(self.oil_shear + solids * self.solid_load)
+    }
+}
+
+impl FilmProblem<'_> {
+    /// Returns the shear stress of the oil in each cell of a solution, ≥ 0, between surfaces whose speeds differ by
+    /// `sliding` ≥ 0, m/s.
+    pub(crate) fn shear_stress(&self, solution: &FilmSolution, sliding: f64, shear: Shear) -> Vec<Pascal> {
+        let (p, h) = (flat(&solution.film.oil_pressure), flat(&solution.thickness));
+        let cavity = flat(&solution.film.cavity);
+        let stress = |k: usize| {
+            let viscosity = self.oil.under(p[k]).viscosity;
+            let thickness = h[k].max(self.boundary_film);
+            (1.0 - cavity[k]) * shear.stress(viscosity, sliding / thickness, p[k])
+        };
+        (0..p.len()).map(stress).collect()
     }
 }

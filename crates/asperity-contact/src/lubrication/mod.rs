@@ -57,6 +57,6 @@ pub use film::{Film, FilmParams, FilmProblem, FilmSolution, solve_film};
 pub use flow::OilStep;
 pub use forces::{FilmForces, Shear};
 pub use named::{NamedOil, OIL_NAMES, OILS};
-pub use oil::{CompressedOil, Oil, ViscosityLaw};
+pub use oil::{CompressedOil, FreeVolume, Oil, ViscosityLaw};
 pub use speeds::{FilmAtSpeed, FilmSpeeds, SolvedFilm};
 pub use zone::ContactZone;

@@ -112,9 +112,15 @@ impl NamedOil {
                 let rise = |viscosity: PascalSecond| viscosity.ln() + 9.67;
                 self.pressure_viscosity * rise(viscosity) / rise(self.viscosity[0])
             }
-            ViscosityLaw::Constant | ViscosityLaw::Barus => self.pressure_viscosity,
+            ViscosityLaw::Constant | ViscosityLaw::Barus | ViscosityLaw::Doolittle => self.pressure_viscosity,
         };
-        let oil = Oil { viscosity, pressure_viscosity, law: self.law, compressible: self.compressible };
+        let oil = Oil {
+            viscosity,
+            pressure_viscosity,
+            law: self.law,
+            compressible: self.compressible,
+            free_volume: None,
+        };
         oil.check().map(|()| oil)
     }
 

@@ -15,6 +15,7 @@ use crate::operator::{Boundary, Operators};
 use crate::solver::{
     ContactProblem, Control, Equilibrium, Guess, InterfaceRecord, Loading, Params, Sliding, Solution, Stats,
 };
+use crate::subsurface::Tractions;
 use crate::units::{CubicMetre, Kelvin, Metre, Newton, Pascal};
 
 /// The solution at one position: only the cells in contact.
@@ -36,6 +37,8 @@ pub struct Contact {
     /// Gap of all cells, m, where an output asks for it ([`crate::motion::Simulation::keeping_gaps`]): below
     /// 0 by up to the plastic interference on cells at the hardness.
     pub gap: Option<Arc<Field>>,
+    /// Tractions of oil and solids together on the lower surface of lubricated bodies; `None` of dry ones.
+    pub film_tractions: Option<Arc<Tractions>>,
     /// Largest elastic displacement of a cell, m; `None` if it is unknown, as for a pass that is solved
     /// together with its removal.
     pub max_displacement: Option<Metre>,
@@ -114,6 +117,7 @@ impl Contact {
             plastic: Vec::new(),
             temperature: None,
             gap: None,
+            film_tractions: None,
             max_displacement: None,
             interface: None,
             load,
@@ -147,6 +151,7 @@ impl Contact {
             plastic,
             temperature: None,
             gap: None,
+            film_tractions: None,
             max_displacement: Some(solution.max_displacement()),
             interface: None,
             load: solution.load(),
@@ -162,6 +167,17 @@ impl Contact {
         let cells = field.as_slice_mut().expect("standard layout");
         self.pressure.iter().chain(&self.tension).for_each(|(cell, p)| cells[*cell as usize] = *p);
         field
+    }
+
+    /// Returns the tractions on the lower surface of the overlap, `width` across, of dry bodies that slide like this, or
+    /// of lubricated ones.
+    pub fn tractions(&self, width: usize, sliding: Option<&Sliding>) -> Tractions {
+        if let Some(tractions) = &self.film_tractions {
+            return (**tractions).clone();
+        }
+        let pressure = self.pressure_field(width);
+        let shear = sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[0]));
+        Tractions { pressure, shear: [shear, None] }
     }
 
     /// Returns the temperature of the cells in contact, K, NaN elsewhere, `width` across; `None` if it is not

@@ -1,7 +1,7 @@
 //! A pair of bodies with an oil between them, in a steady film.
 
 use crate::error::Result;
-use crate::grid::{Field, Grid};
+use crate::grid::{CellValues, Field, Grid};
 use crate::lubrication::{FilmAtSpeed, FilmParams, FilmSolution, FilmSpeeds, Lubrication, SolvedFilm};
 use crate::motion::lubricated_measure::FilmMeasure;
 use crate::motion::pair::Pair;
@@ -37,7 +37,7 @@ impl LubricatedBodies {
         let mut films = FilmSpeeds::new(&mut *operator, &problem, FilmParams::default())?;
         films.go_on(last);
         let dry = &films.dry().solid_pressure;
-        let measure = FilmMeasure::new(pair, lubrication, gap, dry, boundary);
+        let measure = FilmMeasure::new(pair, lubrication, gap, dry, (operator.grid(), boundary));
         Ok(Self { operator, gap: gap.clone(), lubrication, films, measure })
     }
 
@@ -54,12 +54,12 @@ impl LubricatedBodies {
     ) -> Result<(LoadedContact, LubricationRecord)> {
         let FilmAtSpeed { solution, half } = self.films.film_at(&mut *self.operator, speed)?;
         let (problem, sliding_speed) = (self.films.problem(speed), self.lubrication.sliding_at(speed));
-        let measured = |solution: &FilmSolution, grid: &Grid, hardness: Option<&Bounds>| {
+        let measured = |solution: &FilmSolution, grid: &Grid, hardness: Option<&CellValues>| {
             self.measure.record(&problem, solution, grid, sliding_speed, hardness)
         };
         let grid = *self.operator.grid();
         let hardness = pair.yields().then(|| pair.bounds(&pair.at_rest()));
-        let (forces, film) = measured(&solution, &grid, hardness.as_ref());
+        let (forces, film) = measured(&solution, &grid, hardness.as_ref().map(Bounds::upper));
         let half = half.map(|(grid, half)| measured(&half, &grid, None).1);
         let off = |value: fn(&FilmRecord) -> f64| half.map(|half| (value(&half) - value(&film)).abs());
         let load = forces.oil_load + forces.solid_load;
@@ -70,7 +70,7 @@ impl LubricatedBodies {
             mean_film_uncertainty: off(|film| film.mean_film),
             solid_share_uncertainty: off(|film| film.solid_share),
             traction_uncertainty: off(|film| film.traction_coefficient),
-            rolling_friction: forces.rolling / load,
+            rolling_friction: forces.over_load(forces.rolling),
             hamrock_dowson_film: self.measure.hamrock_dowson(speed, load),
         };
         Ok((self.contact(pair, solution), record))

@@ -1,12 +1,11 @@
 //! A film of oil in numbers.
 
-use crate::grid::{Field, Grid, flat};
+use crate::grid::{CellValues, Field, Grid, flat};
 use crate::lubrication::{ContactZone, FilmForces, FilmProblem, FilmSolution, Lubrication, Oil};
 use crate::motion::pair::Pair;
 use crate::motion::paraboloid::Paraboloid;
 use crate::motion::record::FilmRecord;
 use crate::operator::Boundary;
-use crate::solver::Bounds;
 use crate::units::{Metre, MetrePerSecond, Newton, Pascal};
 
 /// Where the films of two bodies are measured, and against which lengths.
@@ -28,36 +27,35 @@ impl FilmMeasure {
         lubrication: Lubrication,
         gap: &Field,
         dry: &Field,
-        boundary: Boundary,
+        (grid, boundary): (&Grid, Boundary),
     ) -> Self {
-        let grid = pair.lower_grid();
-        let zone = ContactZone::new(dry, &grid, boundary);
+        let zone = ContactZone::new(dry, grid, boundary);
         let paraboloid = Paraboloid::fit(gap, grid.pitch).filter(|_| boundary == Boundary::FREE);
         let curvatures = paraboloid.filter(|fit| !fit.is_endless()).map(|fit| {
             let [first, second] = fit.curvatures;
             let [cos2, sin2] = fit.direction.map(|component| component * component);
             [first * cos2 + second * sin2, first * sin2 + second * cos2]
         });
-        let (roughness, modulus) = (zone.roughness(gap, &grid), pair.modulus());
+        let (roughness, modulus) = (zone.roughness(gap, grid), pair.modulus());
         Self { lubrication, boundary, zone, roughness, curvatures, modulus }
     }
 
     /// Returns the forces of a film on this grid between surfaces whose speeds differ by `sliding`, and its record. The
-    /// pressure is compared with these bounds.
+    /// pressure is compared with the hardness.
     pub(super) fn record(
         &self,
         problem: &FilmProblem<'_>,
         solution: &FilmSolution,
         grid: &Grid,
         sliding: MetrePerSecond,
-        hardness: Option<&Bounds>,
+        hardness: Option<&CellValues>,
     ) -> (FilmForces, FilmRecord) {
         let Lubrication { shear, solid_friction, .. } = self.lubrication;
         let forces = FilmForces::new(problem, solution, grid, self.boundary, sliding, shear);
         let (oil, solids) = (flat(&solution.film.oil_pressure), flat(&solution.film.solid_pressure));
         let borne = oil.iter().zip(solids).map(|(oil, solids)| oil + solids);
-        let share = |bounds: &Bounds| {
-            let shares = borne.enumerate().map(|(cell, borne)| borne / bounds.upper().value(cell));
+        let share = |hardness: &CellValues| {
+            let shares = borne.enumerate().map(|(cell, borne)| borne / hardness.value(cell));
             shares.fold(0.0, f64::max)
         };
         let mean_film = mean(&solution.thickness, &self.zone.cells(grid));

@@ -93,11 +93,11 @@ impl<'a> LoadCycle<'a> {
             Contacts::AtRest(contacts) => contacts[contact].clone(),
             Contacts::OfPass(contacts, motion) => {
                 let contact = &contacts[contact];
-                let pressure = contact.pressure_field(pair.lower.width());
-                let placement = pair.placements(&contact.position)[body];
                 let sliding = motion.sliding(contact.position.stroke);
-                let shear = sliding.map(|sliding| placement.onto(&pressure.mapv(|p| sliding.shear(p)[0])));
-                Tractions { pressure: placement.onto(&pressure), shear: [shear, None] }
+                let Tractions { pressure, shear } = contact.tractions(pair.lower.width(), sliding.as_ref());
+                let placement = pair.placements(&contact.position)[body];
+                let onto = |traction: Field| placement.onto(&traction);
+                Tractions { pressure: onto(pressure), shear: shear.map(|shear| shear.map(onto)) }
             }
         };
         if body == 0 { on_lower } else { on_lower.on_upper() }

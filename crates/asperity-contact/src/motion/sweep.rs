@@ -10,7 +10,7 @@ use crate::motion::lubricated::LubricatedBodies;
 use crate::motion::pair::Pair;
 use crate::motion::record::{PlasticStepRecord, ShearRecord, StaticRecord, SweepRecord};
 use crate::motion::slip::SlipRegime;
-use crate::motion::spot::largest_spot;
+use crate::motion::spot::{corrected_area, largest_spot};
 use crate::motion::stage::Stage;
 use crate::motion::state::LoadedContact;
 use crate::motion::store::{CourseState, StateReader, StateWriter, restore_if};
@@ -330,8 +330,8 @@ impl SweepState {
 fn record(boundary: Boundary, point: usize, contact: &LoadedContact) -> SweepRecord {
     let StaticRecord { load, approach, contact_area, apparent_area, .. } = contact.record;
     let Solution { grid, pressure, bounds, .. } = contact.solution.normal();
-    let cells = pressure.iter().enumerate();
-    let contact_cells = cells.filter(|(cell, p)| bounds.touches(*cell, **p)).map(|(cell, _)| cell);
+    let touches: Vec<bool> = pressure.iter().enumerate().map(|(cell, p)| bounds.touches(cell, *p)).collect();
+    let contact_cells = (0..touches.len()).filter(|cell| touches[*cell]);
     let shear = contact.record.shear.as_ref();
     let of_shear = |value: fn(&ShearRecord) -> f64| shear.map_or(0.0, value);
     SweepRecord {
@@ -341,6 +341,7 @@ fn record(boundary: Boundary, point: usize, contact: &LoadedContact) -> SweepRec
         approach,
         mean_gap: contact.record.mean_gap,
         contact_area,
+        contact_area_corrected: corrected_area(&touches, grid, boundary.wraps()),
         contact_fraction: contact_area / apparent_area,
         largest_spot_cells: largest_spot(contact_cells, grid.shape, boundary.wraps()),
         max_pressure: contact.record.max_pressure,

@@ -13,12 +13,22 @@ use crate::operator::{Boundary, Edge, FreeFft, Operator};
 use crate::solver::Control;
 
 /// An oil that neither thickens nor is compressed.
-const PLAIN: Oil =
-    Oil { viscosity: 0.04, pressure_viscosity: 0.0, law: ViscosityLaw::Constant, compressible: false };
+const PLAIN: Oil = Oil {
+    viscosity: 0.04,
+    pressure_viscosity: 0.0,
+    law: ViscosityLaw::Constant,
+    compressible: false,
+    free_volume: None,
+};
 
 /// A mineral oil.
-const MINERAL: Oil =
-    Oil { viscosity: 0.04, pressure_viscosity: 20e-9, law: ViscosityLaw::Roelands, compressible: true };
+const MINERAL: Oil = Oil {
+    viscosity: 0.04,
+    pressure_viscosity: 20e-9,
+    law: ViscosityLaw::Roelands,
+    compressible: true,
+    free_volume: None,
+};
 
 /// Mean speed of the rigid bodies, m/s.
 const SPEED: f64 = 1.0;

@@ -1,9 +1,11 @@
 //! Films of an oil between bodies, checked cell by cell with direct sums.
 //!
-//! `CASES=300 cargo test -p asperity-contact --test it films_of_random` tries this number, starting from `SEED`.
+//! `CASES=300 cargo test -p asperity-contact --test it films_of_random` tries this number of contacts and of motions, starting
+//! from `SEED`.
 
 use asperity_contact::lubrication::{
-    Film, FilmParams, FilmProblem, FilmSolution, FilmSpeeds, Oil, OilStep, Shear, ViscosityLaw, solve_film,
+    Film, FilmParams, FilmProblem, FilmSolution, FilmSpeeds, FreeVolume, Oil, OilStep, Shear, ViscosityLaw,
+    solve_film,
 };
 use asperity_contact::operator::{Boundary, DirectSum, Edge, FreeFft, Operator, Operators};
 use asperity_contact::solver::Control;
@@ -13,8 +15,13 @@ use rand_chacha::ChaCha8Rng;
 
 const MODULUS: f64 = 115e9;
 
-const OIL: Oil =
-    Oil { viscosity: 0.04, pressure_viscosity: 20e-9, law: ViscosityLaw::Roelands, compressible: true };
+const OIL: Oil = Oil {
+    viscosity: 0.04,
+    pressure_viscosity: 20e-9,
+    law: ViscosityLaw::Roelands,
+    compressible: true,
+    free_volume: None,
+};
 
 /// A ball of 10 mm radius with waves, on cells of 8 µm.
 fn ball(shape: [usize; 2], waves: f64, phase: f64) -> (Grid, Field) {
@@ -130,10 +137,9 @@ fn residual(grid: &Grid, problem: &FilmProblem<'_>, solution: &FilmSolution, acr
 
 #[test]
 fn films_of_random_contacts_leave_no_residual() {
-    let number = |name: &str, default: u64| std::env::var(name).map_or(default, |text| text.parse().unwrap());
-    let (cases, seed) = (number("CASES", 12), number("SEED", 0));
+    let cases = cases(12);
     let mut mixed = 0;
-    for n in seed..seed + cases {
+    for n in cases.clone() {
         let mut random = ChaCha8Rng::seed_from_u64(n);
         let shape = [random.random_range(16..28), random.random_range(14..24)];
         let across = if n % 3 == 2 { Edge::Periodic } else { Edge::Free };
@@ -150,7 +156,82 @@ fn films_of_random_contacts_leave_no_residual() {
             / (&solution.film.oil_pressure + &solution.film.solid_pressure).sum();
         mixed += u64::from((0.01..0.99).contains(&solids));
     }
-    assert!(mixed >= cases / 4, "{mixed} of {cases} mixed");
+    assert!(4 * mixed >= cases.end - cases.start, "{mixed} of {cases:?} mixed");
+}
+
+/// Numbers of random cases, and the seed of the first, for longer runs.
+fn cases(default: u64) -> std::ops::Range<u64> {
+    let number = |name: &str, default: u64| std::env::var(name).map_or(default, |text| text.parse().unwrap());
+    let seed = number("SEED", 0);
+    seed..seed + number("CASES", default)
+}
+
+/// Balls with random waves move over each other, at a load or an approach: each position is a step, or two of half its time.
+#[test]
+fn films_of_random_motions_leave_no_residual() {
+    for n in cases(4) {
+        let mut random = ChaCha8Rng::seed_from_u64(n);
+        let shape = [random.random_range(14..24), random.random_range(12..20)];
+        let across = if n % 3 == 2 { Edge::Periodic } else { Edge::Free };
+        let waves = 10_f64.powf(random.random_range(-8.0..-7.0));
+        let speed = 10_f64.powf(random.random_range(-3.0..-0.5));
+        let load = 10_f64.powf(random.random_range(-1.0..0.3));
+        let wander = random.random_range(0.2..1.5);
+        let at = |phase: f64| ball(shape, waves, phase);
+        let (grid, mut gap) = at(0.0);
+        let mut operator = Operators::new(grid, MODULUS, Boundary([Edge::Free, across])).on(shape);
+        let mut now = solved(&mut *operator, problem(&gap, speed, load)).unwrap();
+        let control = if n % 2 == 0 { Control::Load(load) } else { Control::Approach(now.film.approach) };
+        for step in 1..=5 {
+            let after = at(wander * f64::from(step)).1;
+            let middle = 0.5 * (&gap + &after);
+            let duration = grid.pitch[0] / speed;
+            let mut whole = true;
+            for (gap, duration) in [(&after, duration), (&middle, 0.5 * duration), (&after, 0.5 * duration)] {
+                let before = now.oil.clone();
+                let step = Some(OilStep { before: &before, duration });
+                let problem = FilmProblem { step, control, ..problem(gap, speed, load) };
+                match solve_film(&mut *operator, &problem, &now.film, &FilmParams::default()) {
+                    Ok(solution) => now = solution,
+                    Err(Error::NotConverged { .. }) if whole => {
+                        whole = false;
+                        continue;
+                    }
+                    Err(error) => panic!("{n}: {error}"),
+                }
+                let left = residual(&grid, &problem, &now, across);
+                assert!(left < 1e-6, "case {n}, {shape:?} at {speed:e} m/s: {left:e}");
+                if whole {
+                    break;
+                }
+            }
+            gap = after;
+        }
+    }
+}
+
+/// The rise of the viscosity and of the density is the derivative of the value, and α is that at ambient pressure.
+#[test]
+fn an_oil_rises_as_it_says() {
+    let volume = Some(FreeVolume { bulk_modulus: 1.4e9, occupied_volume: 0.67 });
+    let laws = [ViscosityLaw::Barus, ViscosityLaw::Roelands, ViscosityLaw::Doolittle].map(|law| Oil {
+        law,
+        free_volume: volume,
+        ..OIL
+    });
+    for oil in laws {
+        assert!((oil.under(1e-3).viscosity_rise / 20e-9 - 1.0).abs() < 1e-9, "{:?}", oil.law);
+        for p in [1e7, 3e8, 1e9] {
+            let [less, here, more] = [p * (1.0 - 1e-5), p, p * (1.0 + 1e-5)].map(|p| oil.under(p));
+            let rise = (more.viscosity / less.viscosity).ln() / (2e-5 * p);
+            assert!((here.viscosity_rise / rise - 1.0).abs() < 1e-6, "{:?}: {rise:e}", oil.law);
+            let rise = (more.density - less.density) / (2e-5 * p);
+            assert!((here.density_rise / rise - 1.0).abs() < 1e-5, "{:?}: {rise:e}", oil.law);
+        }
+    }
+    // Tait with K₀′ = 11.
+    let compressed = 1.0 - (1.0_f64 + 12.0 / 1.4).ln() / 12.0;
+    assert!((laws[2].under(1e9).density * compressed - 1.0).abs() < 1e-12);
 }
 
 #[test]

@@ -67,8 +67,8 @@ pub struct MotionSpec {
     #[key(quantity = Speed, written = "\"1 m/s\"", example = "\"0.5 m/s\"", exists = exists::SPEED, beside = [beside::SPEED])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_upper: Option<MetrePerSecond>,
-    /// `"overlap"` only: speed of the upper body; required for growing films, temperature and viscoelastic
-    /// bodies.
+    /// `"overlap"` only: speed of the upper body; required for growing films, temperature, viscoelastic and
+    /// lubricated bodies.
     #[key(
         quantity = Speed,
         range = AboveZero,

@@ -270,7 +270,8 @@ impl<'a> Sizes<'a> {
         Memory { solver, together, results, volumes }
     }
 
-    /// Numbers that viscoelastic bodies remember in a motion: before a pass, in it and after it.
+    /// Numbers that viscoelastic bodies remember in a motion: before a pass, in it and after it; and tractions of the
+    /// positions of lubricated ones.
     fn remembered(&self) -> f64 {
         let of = |(body, grid): (&Body, &Grid)| {
             let given = body.relaxation_terms()?;
@@ -278,7 +279,12 @@ impl<'a> Sizes<'a> {
             Some(REMEMBERED * (terms + 1) as f64 * grid.cells() as f64)
         };
         let bodies = [(&self.case.lower, &self.lower), (&self.case.upper, &self.upper)];
-        if self.case.motion.is_some() { bodies.into_iter().filter_map(of).sum() } else { 0.0 }
+        if self.case.motion.is_none() {
+            return 0.0;
+        }
+        let lubricated = self.case.interface.lubrication.is_some();
+        let overlaps = (self.overlaps.iter().sum::<usize>() * self.lower.shape[1]) as f64;
+        bodies.into_iter().filter_map(of).sum::<f64>() + if lubricated { 2.0 * overlaps } else { 0.0 }
     }
 
     /// Number of overlap columns at the solved positions.
@@ -409,9 +415,11 @@ impl<'a> Sizes<'a> {
             Course::Rolling(_) | Course::Sweep(_) if course.rolling().next().is_some() => {
                 return if unlike { ROLLING_UNLIKE } else { ROLLING };
             }
-            Course::Sweep(_) if case.interface.lubrication.is_some() => {
+            Course::Sweep(_) | Course::Passes(_) if case.interface.lubrication.is_some() => {
                 let larger = (nx * ny / LARGE).powf(FILM_GROWTH);
-                return Cost { convolutions: larger * FILM.convolutions, ..FILM };
+                // A position starts from the one before, and has no film on half as many cells.
+                let share = if matches!(course, Course::Passes(_)) { FILM_STEP } else { 1.0 };
+                return Cost { convolutions: share * larger * FILM.convolutions, ..FILM };
             }
             Course::Sweep(_) if case.steady.is_some() => {
                 let larger = (nx * ny / LARGE).powf(STEADY_GROWTH);
@@ -555,6 +563,8 @@ const STEADY_GROWTH: f64 = 0.6;
 const FILM: Cost = Cost { convolutions: 300.0, work: 6.0 };
 const FILM_GROWTH: f64 = 0.7;
 const FILM_MEMORY: f64 = 1500.0;
+/// Share of this cost that a position of a motion has.
+const FILM_STEP: f64 = 0.2;
 /// Number of cells from which a contact takes more convolutions, and the exponent of this growth.
 const LARGE: f64 = 16384.0;
 const GROWTH: f64 = 0.09;

@@ -21,7 +21,6 @@ use asperity_contact::lubrication::Film;
 use asperity_contact::motion::{
     IncrementRecord, Output, PassReport, Step, StepRecord, StepRow, SweepRecord, UpdateRecord,
 };
-use asperity_contact::subsurface::Tractions;
 use asperity_contact::with::plasticity::Keep;
 
 /// Writes each step of a course to files.
@@ -238,11 +237,9 @@ impl StepWriter {
         if let Some(plan) = &self.plan {
             let pass = Some(report.record.pass);
             let contact = &report.contacts[plan.index];
-            let pressure = contact.pressure_field(pair.lower.width());
             let sliding = report.motion.sliding(contact.position.stroke);
             let path = results.subsurface_path(pass);
-            let shear = |axis: usize| sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
-            let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
+            let tractions = contact.tractions(pair.lower.width(), sliding.as_ref());
             let plan = plan.at_position(&contact.position, &pair.lower_grid());
             let placements = pair.placements(&contact.position);
             let states_under_load = report.plastic_volumes.iter().zip(report.states_under_load);

@@ -187,12 +187,12 @@ fn a_smooth_disc_that_moves_under_a_ball_has_the_steady_film() {
 
 #[test]
 fn interrupted_passes_of_a_ground_disc_go_on_to_the_same_bits() {
-    let text = passing(GROUND, "") + "speed_lower = \"60 mm/s\"\npasses = 3\nstride = 4\n";
+    let text = passing(GROUND, "") + "speed_lower = \"60 mm/s\"\npasses = 3\nstride = 8\n";
     let passes = goes_on(&parsed(&text)).results.passes().unwrap();
     assert_eq!(passes.len(), 3);
     let film = |pass: usize| passes[pass].film.unwrap();
-    // From the second pass on the roughness has filled the contact, and passes are alike.
-    assert!((film(2).mean_film / film(1).mean_film - 1.0).abs() < 1e-3, "{passes:?}");
+    // From the second pass on the roughness has filled the contact, and passes are nearly alike.
+    assert!((film(2).mean_film / film(1).mean_film - 1.0).abs() < 1e-2, "{passes:?}");
     assert!(film(1).solid_share > 0.0 && film(1).min_film < 0.5 * film(1).mean_film);
 }
 
@@ -232,4 +232,111 @@ fn passes_beyond_their_models_are_told() {
     }
     let soft = told("1 m/s", ["hardness = inf", "hardness = \"0.4 GPa\""]);
     assert!(soft.contains("times the hardness, which does not limit it"), "{soft}");
+}
+
+/// A short ball that passes over a long plate under an oil, with these keys.
+fn over(keys: &str, motion: &str) -> String {
+    format!(
+        r#"
+[lower]
+material = "steel"
+hardness = inf
+topography = {{ form = "flat", shape = [104, 24], pitch = "16 um" }}
+[upper]
+material = "steel"
+hardness = inf
+topography = {{ form = "sphere", radius = "10 mm", shape = [32, 24] }}
+[contact]
+{keys}
+[motion]
+speed = "0.4 m/s"
+stride = 4
+{motion}"#
+    )
+}
+
+/// In an overlap the oil enters ahead of the upper body. Once all of it lies over the lower body, it has the steady film, and
+/// on the way back, too.
+#[test]
+fn a_ball_that_passes_over_a_plate_has_the_steady_film_in_the_middle() {
+    let steady = case(&format!("{OIL}speed = \"0.2 m/s\"\n"))
+        .replace(", plus = [{ generate = \"low-pass\", sq = \"60 nm\", cutoff = \"66 um\" }]", "")
+        .replace("shape = [48, 40], pitch = \"11 um\"", "shape = [32, 24], pitch = \"16 um\"")
+        .replace("load = \"6 N\"", "approach = \"0.9 um\"");
+    let steady = films(&at_rest(&parsed(&steady)))[0].1.film;
+    let folder = tempfile::TempDir::new().unwrap();
+    let text = over(&format!("approach = \"0.9 um\"\n{OIL}"), "path = \"reciprocating\"\n");
+    let (_, results) = run(&parsed(&text), folder.path());
+    let steps = results.steps().unwrap();
+    // Each stroke ends with a body that has passed through a whole film.
+    let at = |step: &&asperity_contact::motion::StepRecord, offset: f64| {
+        (step.offset / 16e-6 - offset).abs() < 1e-6
+    };
+    let forth = steps.iter().find(|step| at(step, 68.0)).unwrap();
+    let back = steps.iter().rfind(|step| at(step, 4.0)).unwrap();
+    let middle = [forth, back];
+    for step in middle {
+        let film = step.film.unwrap();
+        assert!((film.mean_film / steady.mean_film - 1.0).abs() < 1e-3, "{film:?} {steady:?}");
+        assert!((film.traction_coefficient / steady.traction_coefficient - 1.0).abs() < 1e-3);
+    }
+    // The lower body is dragged along, forth and back.
+    assert!(middle[0].tangential_force > 0.0);
+    assert!(
+        (middle[0].tangential_force + middle[1].tangential_force).abs() < 1e-3 * middle[0].tangential_force
+    );
+}
+
+#[test]
+fn interrupted_passes_in_an_overlap_bear_their_mean_load_and_go_on_to_the_same_bits() {
+    let text = over(
+        &format!("load = \"2 N\"\n{OIL}"),
+        "passes = 2\n[lower.wear]\ncoefficient = \"1e-7 mm3/(N m)\"\n",
+    )
+    .replace("shape = [104, 24], pitch = \"16 um\"", "shape = [36, 12], pitch = \"32 um\"")
+    .replace("shape = [32, 24]", "shape = [16, 12]")
+    .replace("form = \"flat\"", &GROUND.replace("78 um", "160 um"))
+    .replace("0.4 m/s", "4 mm/s");
+    let passes = goes_on(&parsed(&text)).results.passes().unwrap();
+    for pass in &passes {
+        assert!((pass.mean_load / 2.0 - 1.0).abs() < 1e-4, "{pass:?}");
+    }
+    assert!(passes[1].lost("wear")[0] > 0.0 && passes[1].film.unwrap().solid_share > 0.0, "{passes:?}");
+}
+
+/// Oil that moves towards −x has the film of oil that moves towards +x under the mirrored bodies.
+#[test]
+fn a_disc_that_turns_back_drags_the_oil_the_other_way() {
+    let films = |mirror: &str, speed: &str| {
+        let folder = tempfile::TempDir::new().unwrap();
+        let text =
+            passing(&format!("{GROUND}{mirror}"), "") + &format!("speed_lower = \"{speed}\"\nstride = 8\n");
+        let (_, results) = run(&parsed(&text), folder.path());
+        results.steps().unwrap()
+    };
+    let (forth, back) = (films("", "0.1 m/s"), films(", mirror = \"x\"", "-0.1 m/s"));
+    for (forth, back) in forth.iter().zip(&back) {
+        let (film, turned) = (forth.film.unwrap(), back.film.unwrap());
+        assert!((film.mean_film / turned.mean_film - 1.0).abs() < 1e-6, "{film:?} {turned:?}");
+        assert!((forth.tangential_force + back.tangential_force).abs() < 1e-5 * back.tangential_force);
+    }
+}
+
+/// The stress below is that of oil and solids: of slow bodies that of dry ones with the friction of the solids.
+#[test]
+fn the_stress_below_a_slow_film_is_that_of_a_dry_contact() {
+    let stress = |between: &str, speed: &str| {
+        let folder = tempfile::TempDir::new().unwrap();
+        let text =
+            over(&format!("approach = \"0.5 um\"\n{between}"), "[subsurface]\nto = \"120 um\"\nlayers = 6\n")
+                .replace("0.4 m/s", speed)
+                .replace("stride = 4", "stride = 17");
+        let (summary, _) = run(&parsed(&text), folder.path());
+        summary.subsurface.last().unwrap().max_von_mises
+    };
+    let dry = stress("[friction]\ncoefficient = 0.12\n", "0.4 m/s");
+    let slow = stress(OIL, "2 um/s");
+    assert!((slow / dry - 1.0).abs() < 0.02, "{slow:e} {dry:e}");
+    let fast = stress(OIL, "2 m/s");
+    assert!((fast / dry - 1.0).abs() > 0.03, "{fast:e} {dry:e}");
 }

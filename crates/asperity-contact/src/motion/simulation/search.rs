@@ -45,7 +45,8 @@ impl Simulation {
         // Plastic flow takes most of the time of a trial, so rough contacts would save nothing. Rough
         // contacts that depend on where the bodies come from may be in another state, and those of
         // viscoelastic bodies would be remembered.
-        let exact = self.volumes.is_some() || !pair.interface().is_hard() || pair.creep().is_some();
+        let remembers = pair.creep().is_some() || pair.lubrication().is_some();
+        let exact = self.volumes.is_some() || !pair.interface().is_hard() || remembers;
         let roughest = if exact { self.params.tolerance } else { MAX_RESIDUAL };
         let mut residual = roughest;
         let mut guess = self.warm.guess;
@@ -73,7 +74,7 @@ impl Simulation {
             tolerance: self.motion.load_tolerance,
             residual: self.params.tolerance,
             roughest,
-            touch: self.touch(pair),
+            touch: self.bears(pair),
             resolution: resolution(pair),
             limit: self.limit(pair),
         };
@@ -128,8 +129,9 @@ impl Simulation {
     }
 
     /// Makes a guess from the position with the most columns, at two loads near its share of the pass-mean
-    /// load.
+    /// load, of dry bodies.
     fn first_guess(&self, pair: &Pair, load: Newton, watch: &dyn Watch) -> Result<Guess> {
+        let pair = &pair.clone().with_lubrication(None);
         let fullest = self.positions.iter().max_by_key(|p| p.columns).expect("a pass has positions");
         let share = fullest.columns as f64 / mean_columns(&self.positions);
         let limit = max_load(pair, &self.motion, fullest);
@@ -172,11 +174,22 @@ impl Simulation {
         self.positions[..self.distinct].iter().map(lowest).fold(f64::INFINITY, f64::min)
     }
 
+    /// Approach below which a pass carries no load: that of first touch. Oil bears before the solids touch, but not over a
+    /// gap as wide as the bodies are long.
+    fn bears(&self, pair: &Pair) -> Metre {
+        let film = if pair.lubrication().is_some() { pair.lower_grid().extent()[0] } else { 0.0 };
+        self.touch(pair) - film
+    }
+
     /// Approach beyond which a pass of the present bodies carries no more load. It is the approach at which
     /// every cell would be at the hardness at every position if none had yielded before. For periodic elastic
     /// bodies it is the mean gap, at which all positions are in full contact. If some cells yield and others
     /// never do, there is no limit.
     fn limit(&self, pair: &Pair) -> Limit {
+        // The hardness does not limit the pressure below an oil.
+        if pair.lubrication().is_some() {
+            return Limit { approach: f64::INFINITY, cause: LoadLimit::Yielded };
+        }
         let cap = |hardness| self.motion.friction.map_or(hardness, |friction| friction.sliding_cap(hardness));
         let hardness = cap(pair.max_hardness());
         let largest = |value: fn(&Field) -> f64| {

@@ -11,10 +11,11 @@ use crate::with::views::percent;
 /// solids.
 const UNCERTAIN: [f64; 2] = [0.1, 0.05];
 
-/// Pressures up to which the laws of viscosity are used: Barus fails above some 0.3 GPa and Roelands above some 1 GPa
-/// (Bair, High Pressure Rheology for Quantitative EHL).
+/// Pressures up to which the laws of viscosity are used: Barus fails above some 0.3 GPa and Roelands above some 1 GPa;
+/// free volumes are measured to some 2 GPa (Bair, High Pressure Rheology for Quantitative EHL).
 const BARUS: Pascal = 0.3e9;
 const ROELANDS: Pascal = 1.2e9;
+const DOOLITTLE: Pascal = 2e9;
 
 /// Thickness below which an oil is no continuum: some ten molecules.
 const MOLECULES: Metre = 5e-9;
@@ -105,6 +106,7 @@ fn of_films(oil: &Lubricant, films: &[(String, FilmRecord)]) -> Vec<String> {
         ViscosityLaw::Constant => (f64::INFINITY, ""),
         ViscosityLaw::Barus => (BARUS, "Barus' law of viscosity is far too stiff"),
         ViscosityLaw::Roelands => (ROELANDS, "Roelands' law of viscosity has not been measured"),
+        ViscosityLaw::Doolittle => (DOOLITTLE, "Doolittle's law of viscosity has not been measured"),
     };
     if let Some((place, _, most)) = worst(&|film| film.max_oil_pressure, limit) {
         doubts.push(format!(

@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use crate::error::{Error, Result};
-use crate::lubrication::{Lubrication, NamedOil, Oil, Shear, ViscosityLaw};
+use crate::lubrication::{FreeVolume, Lubrication, NamedOil, Oil, Shear, ViscosityLaw};
 use crate::units::{Kelvin, Metre, MetrePerSecond, Pascal, PascalSecond, PerPascal};
 use asperity_base::beside::{Beside, Scale};
 use asperity_base::exists;
@@ -42,12 +42,31 @@ pub struct Lubricant {
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pressure_viscosity: Option<PerPascal>,
-    /// How the viscosity rises with pressure: `"roelands"`; `"barus"`, exponentially, far too stiff above 0.3 GPa; or
-    /// `"constant"`.
+    /// How the viscosity rises with pressure: `"roelands"`; `"barus"`, exponentially, far too stiff above 0.3 GPa;
+    /// `"doolittle"`, by the free volume of the oil, which follows measured viscosities to several GPa; or `"constant"`.
     #[key(choice, absent = "`\"roelands\"`, or that of `oil`", example = "\"barus\"")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<ViscosityLaw>,
-    /// Whether the density rises with pressure, by Dowson and Higginson.
+    /// Isothermal bulk modulus of the oil at ambient pressure.
+    #[key(
+        quantity = Pressure,
+        range = AboveZero,
+        absent = "must be given with `law = \"doolittle\"`",
+        example = "\"1.4 GPa\"",
+        exists = BULK_MODULUS
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bulk_modulus: Option<Pascal>,
+    /// Share of the volume of the oil at ambient pressure that its molecules occupy, below 1.
+    #[key(
+        number = "a number",
+        range = AboveZero,
+        absent = "must be given with `law = \"doolittle\"`",
+        example = "0.67"
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub occupied_volume: Option<f64>,
+    /// Whether the density rises with pressure, by Dowson and Higginson, or by Tait with `law = "doolittle"`.
     #[key(flag, absent = "true, or that of `oil`", example = "false")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub compressible: Option<bool>,
@@ -116,6 +135,9 @@ const VISCOSITY: Exists =
 /// The same source: water 0.5 to traction fluids 40 1/GPa.
 const PRESSURE_VISCOSITY: Exists =
     Exists::Within { least: 1e-10, most: 1e-7, of: "water to traction fluids", slips: &["1/GPa", "1/Pa"] };
+/// Bair, High Pressure Rheology for Quantitative EHL: 0.8 to 3 GPa.
+const BULK_MODULUS: Exists =
+    Exists::Within { least: 3e8, most: 6e9, of: "hot light oils to glycerol", slips: &["GPa", "MPa"] };
 /// Bair, High Pressure Rheology for Quantitative EHL: 0.02 to 0.15.
 const LIMIT: Exists = Exists::Within { least: 5e-3, most: 0.3, of: "esters to traction fluids", slips: &[] };
 /// The same source: 1 to 50 MPa.
@@ -149,7 +171,7 @@ fn by_name<S: Serializer>(
 fn known(read: &Lubricant, source: &dyn Source) -> Result<()> {
     source.exactly_one(&["oil", "viscosity"], "for example `viscosity = \"40 mPa s\"`")?;
     at_most_one(source, &["speed", "speeds"], "for example `speed = \"0.1 m/s\"`")?;
-    for key in ["pressure_viscosity", "law", "compressible"] {
+    for key in ["pressure_viscosity", "law", "compressible", "bulk_modulus", "occupied_volume"] {
         require(source, key, read.oil.is_none(), "none beside `oil`, which has its own", None)?;
     }
     let is_constant = read.law == Some(ViscosityLaw::Constant);
@@ -157,6 +179,18 @@ fn known(read: &Lubricant, source: &dyn Source) -> Result<()> {
     let given = read.pressure_viscosity.is_some();
     require(source, "viscosity", is_constant || given, "also `pressure_viscosity`", Some(hint))?;
     require(source, "pressure_viscosity", !is_constant || !given, "none with `law = \"constant\"`", None)?;
+    let is_free_volume = read.law == Some(ViscosityLaw::Doolittle);
+    for (key, given) in
+        [("bulk_modulus", read.bulk_modulus.is_some()), ("occupied_volume", read.occupied_volume.is_some())]
+    {
+        let expected = "none but with `law = \"doolittle\"`";
+        require(source, key, is_free_volume || !given, expected, None)?;
+        let (expected, hint) = (
+            format!("also `{key}`"),
+            "for example `bulk_modulus = \"1.4 GPa\"` and `occupied_volume = 0.67`",
+        );
+        require(source, "law", !is_free_volume || given, &expected, Some(hint))?;
+    }
     let one = read.limiting_stress.is_none() || read.eyring_stress.is_none();
     require(source, "eyring_stress", one, "none beside `limiting_stress`", None)?;
     let is_driven = read.speed != Some(0.0) || read.inlet_pressure.max(read.outlet_pressure) > 0.0;
@@ -188,6 +222,10 @@ impl Lubricant {
             pressure_viscosity: self.pressure_viscosity.unwrap_or(0.0),
             law: self.viscosity_law(),
             compressible: self.compressible.unwrap_or(true),
+            free_volume: self
+                .bulk_modulus
+                .zip(self.occupied_volume)
+                .map(|(bulk_modulus, occupied_volume)| FreeVolume { bulk_modulus, occupied_volume }),
         })
     }
 

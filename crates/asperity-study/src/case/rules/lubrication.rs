@@ -1,9 +1,9 @@
 //! Rules of lubricated bodies.
 
-use super::super::{Body, ControlKind, CounterBody, Layer, Source};
+use super::super::{Body, CounterBody, Layer, Source};
 use super::Rule;
 use super::examples::{AT_ANY_SPEED, GENERATED, OIL, RUBS, SLIDES, SWEEP};
-use asperity_contact::motion::{Path, Strategy};
+use asperity_contact::motion::Strategy;
 use asperity_surface::Form;
 
 /// Tables that a film of oil excludes.
@@ -37,7 +37,7 @@ pub(super) const RULES: &[Rule] = &[
         example: &[OIL, SLIDES],
         broken: |tables| {
             tables.at("lubrication")?;
-            OTHERS.iter().find_map(|table| tables.at(table)).or_else(|| tables.capability())
+            OTHERS.iter().find_map(|table| tables.at(table)).or_else(|| tables.of_single_contacts())
         },
     },
     Rule {
@@ -63,53 +63,36 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "[motion] of lubricated bodies",
-        with: "`strategy = \"overlap\"`, `path = \"reciprocating\"`, speeds whose sum is not above 0",
-        message: "lubricated bodies pass over each other by a shift, one way, and their mean speed is along +x",
-        hint: "set `strategy = \"shift\"`; the speed of the body that carries the form, such as a ball, is 0",
+        with: "no speed, or speeds that cancel",
+        message: "lubricated bodies that pass over each other need a speed that entrains the oil",
+        hint: "give `speed = \"0.2 m/s\"`, or of a shift `speed_lower` and `speed_upper`, whose mean is not 0",
         at: "motion",
         example: &[BETWEEN, AT_ANY_SPEED],
         broken: |tables| {
             tables.at("lubrication")?;
             let motion = tables.motion()?;
-            let is_along = match motion.strategy() {
-                Strategy::Overlap => false,
-                Strategy::Shift { speed_lower, speed_upper } => speed_lower + speed_upper > 0.0,
+            let entrains = match motion.strategy() {
+                Strategy::Overlap => motion.speed.is_some(),
+                Strategy::Shift { speed_lower, speed_upper } => {
+                    let given = tables.first("motion", &["speed_lower", "speed_upper"]).is_some();
+                    given && speed_lower + speed_upper != 0.0
+                }
             };
-            tables.at("motion").filter(|_| !is_along || motion.path != Path::OneWay)
+            tables.at("motion").filter(|_| !entrains)
         },
     },
     Rule {
         this: "[motion] of lubricated bodies",
-        with: "`control = \"pass-load\"`",
-        message: "a load on lubricated bodies holds at every position",
-        hint: "set `control = \"step-load\"` in [motion]",
-        at: "motion.control",
-        example: &[
-            BETWEEN,
-            r#"motion = { strategy = "shift", speed_lower = 1, speed_upper = 0, control = "pass-load" }"#,
-        ],
-        broken: |tables| {
-            tables.at("lubrication")?;
-            let of_pass = tables.motion()?.control == Some(ControlKind::PassLoad);
-            tables.at("motion.control").or(tables.at("motion")).filter(|_| of_pass)
-        },
-    },
-    Rule {
-        this: "[motion] of lubricated bodies",
-        with: "`counter = \"fresh\"`, [subsurface], a flash temperature",
+        with: "`counter = \"fresh\"`, a flash temperature",
         message: "passes of lubricated bodies do not support '{key}'",
         hint: "",
-        at: "subsurface",
-        example: &[
-            BETWEEN,
-            r#"motion = { strategy = "shift", speed_lower = 1, speed_upper = 0, control = "step-load" }"#,
-            r#"subsurface = { to = "5 um" }"#,
-        ],
+        at: "motion.counter",
+        example: &[BETWEEN, r#"motion = { speed = "0.2 m/s", counter = "fresh" }"#, GENERATED],
         broken: |tables| {
             tables.at("lubrication").and(tables.motion())?;
             let fresh = tables.motion().is_some_and(|motion| motion.counter == CounterBody::Fresh);
             let counter = tables.at("motion.counter").filter(|_| fresh);
-            tables.at("subsurface").or(tables.flash()).or(counter)
+            tables.flash().or(counter)
         },
     },
     Rule {

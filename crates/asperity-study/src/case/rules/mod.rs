@@ -132,10 +132,10 @@ impl<'a> Tables<'a> {
         find(self.root, key)
     }
 
-    /// Returns the table of the first capability that is given.
-    fn capability(&self) -> Option<Entry<'a>> {
+    /// Returns the table of the first given capability that looks at single contacts.
+    fn of_single_contacts(&self) -> Option<Entry<'a>> {
         let mut found = None;
-        each!(capability C => found = found.or(self.at(C::NAME)));
+        each!(capability C => found = found.or(self.at(C::NAME).filter(|_| !C::OF_LOAD_CYCLES)));
         found
     }
 

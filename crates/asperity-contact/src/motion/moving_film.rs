@@ -1,0 +1,182 @@
+//! A film between two bodies that move.
+
+use crate::error::{Error, Result};
+use crate::grid::{CellValues, Field, flat};
+use crate::lubrication::{Film, FilmParams, FilmProblem, FilmSolution, Lubrication, OilStep, solve_film};
+use crate::motion::body::State;
+use crate::motion::kinematics::{Motion, Strategy};
+use crate::motion::pair::Pair;
+use crate::motion::path::{Position, Stroke};
+use crate::operator::Operator;
+use crate::solver::Control;
+use crate::units::{MetrePerSecond, Second};
+
+/// Most times that a step of time is halved.
+pub(super) const HALVINGS: usize = 6;
+
+/// Names of two fields in the state of the lower body, beside those of [`Film::parts`]: the oil in each cell, and the
+/// approach. All of them lie in the frame of the contact, with the inlet at their first column.
+const OIL: &str = "oil_content";
+const APPROACH: &str = "oil_approach";
+
+/// Mean speed of both surfaces along x in the frame of the contact, which in an overlap is that of the upper body; NaN
+/// if it is not known.
+pub(super) fn mean_speed(motion: &Motion, stroke: Stroke) -> MetrePerSecond {
+    let forth = match motion.strategy {
+        Strategy::Shift { speed_lower, speed_upper } => 0.5 * (speed_lower + speed_upper),
+        Strategy::Overlap => -0.5 * motion.speed.unwrap_or(f64::NAN),
+    };
+    stroke.sign() * forth
+}
+
+/// Where the columns of a film lie. They are counted from its inlet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// Number of columns.
+    pub(super) columns: usize,
+    /// First column of the contact in the frame in which the film stays.
+    start: usize,
+    /// Whether oil enters at the last column of the contact.
+    is_reversed: bool,
+}
+
+impl Place {
+    pub(super) fn new(motion: &Motion, position: &Position) -> Self {
+        let start = match motion.strategy {
+            Strategy::Overlap => position.upper,
+            Strategy::Shift { .. } => 0,
+        };
+        Self { columns: position.columns, start, is_reversed: mean_speed(motion, position.stroke) < 0.0 }
+    }
+
+    /// The column of the contact that is this one from the inlet, or the other way round.
+    fn turned(&self, column: usize) -> usize {
+        if self.is_reversed { self.columns - 1 - column } else { column }
+    }
+
+    /// Returns a field of the contact from its inlet on, or the other way round.
+    pub(super) fn turned_field(&self, field: &Field) -> Field {
+        Field::from_shape_fn(field.raw_dim(), |(i, j)| field[(self.turned(i), j)])
+    }
+
+    /// Returns values of the contact from its inlet on.
+    pub(super) fn turned_values(&self, values: &CellValues) -> CellValues {
+        match values {
+            CellValues::Uniform(value) => CellValues::Uniform(*value),
+            CellValues::Field(field) => CellValues::Field(self.turned_field(field)),
+        }
+    }
+
+    /// Returns a field that lies here at another place; the nearest column counts where there was none.
+    fn carry(&self, field: &Field, to: &Self) -> Field {
+        if self == to {
+            return field.clone();
+        }
+        Field::from_shape_fn((to.columns, field.ncols()), |(i, j)| {
+            let column = to.start + to.turned(i);
+            let own = column.saturating_sub(self.start).min(self.columns - 1);
+            field[(self.turned(own), j)]
+        })
+    }
+}
+
+/// A film between two bodies that move, from its inlet on.
+pub(super) struct MovingFilm<'a> {
+    lubrication: &'a Lubrication,
+    control: Control,
+    place: Place,
+    gap: Field,
+    film: Film,
+    /// Oil in each cell, m.
+    oil: Field,
+}
+
+impl<'a> MovingFilm<'a> {
+    /// Begins with a solution over a gap.
+    pub(super) fn new(
+        lubrication: &'a Lubrication,
+        control: Control,
+        place: Place,
+        gap: Field,
+        begins: &FilmSolution,
+    ) -> Self {
+        let oil = field_like(&gap, &begins.oil);
+        Self { lubrication, control, place, gap, film: begins.film.clone(), oil }
+    }
+
+    /// Goes on with the film that a pass has left in the state of the lower body, if it has left one.
+    pub(super) fn kept(
+        lubrication: &'a Lubrication,
+        control: Control,
+        place: Place,
+        gap: Field,
+        pair: &Pair,
+    ) -> Option<Self> {
+        let field = |name: &str| Some(&pair.lower.state.get(name)?.values);
+        let film =
+            Film::from_parts(|name| field(name).cloned().ok_or(()), *field(APPROACH)?.first()?).ok()?;
+        Some(Self { lubrication, control, place, gap, film, oil: field(OIL)?.clone() })
+    }
+
+    /// Keeps the film in the state of the lower body.
+    pub(super) fn keep(&self, pair: &mut Pair) {
+        let approach = Field::from_elem(self.oil.raw_dim(), self.film.approach);
+        let mut keep = |name: &str, unit: &str, values: Field| {
+            pair.lower.state.insert(name.to_owned(), State { unit: unit.to_owned(), values });
+        };
+        self.film.parts().into_iter().for_each(|(name, unit, values)| keep(name, unit, values.clone()));
+        keep(OIL, "m", self.oil.clone());
+        keep(APPROACH, "m", approach);
+    }
+
+    /// Carries the film to another place. Columns that were none before have the film of the nearest one.
+    pub(super) fn carry(&mut self, to: Place) {
+        let at = |field: &Field| self.place.carry(field, &to);
+        let Film { oil_pressure, solid_pressure, cavity, approach } = &self.film;
+        let film = Film {
+            oil_pressure: at(oil_pressure),
+            solid_pressure: at(solid_pressure),
+            cavity: at(cavity),
+            approach: *approach,
+        };
+        let (gap, oil) = (at(&self.gap), at(&self.oil));
+        *self = Self { place: to, gap, film, oil, ..*self };
+    }
+
+    /// Advances to a gap in a time at a mean speed. A step that does not end is halved, up to so many times: in between
+    /// the gap changes evenly.
+    pub(super) fn advance(
+        &mut self,
+        operator: &mut dyn Operator,
+        after: &Field,
+        (speed, duration): (MetrePerSecond, Second),
+        halvings: usize,
+    ) -> Result<FilmSolution> {
+        let step = Some(OilStep { before: flat(&self.oil), duration });
+        let problem = FilmProblem { speed, step, ..self.lubrication.problem(after, self.control) };
+        match solve_film(operator, &problem, &self.film, &FilmParams::default()) {
+            Err(Error::NotConverged { .. }) if halvings > 0 => {
+                let middle = 0.5 * (&self.gap + after);
+                let half = (speed, 0.5 * duration);
+                let first = self.advance(operator, &middle, half, halvings - 1)?;
+                let second = self.advance(operator, after, half, halvings - 1)?;
+                Ok(FilmSolution {
+                    iterations: first.iterations + second.iterations,
+                    convolutions: first.convolutions + second.convolutions,
+                    ..second
+                })
+            }
+            solution => {
+                let solution = solution?;
+                (self.film, self.oil) = (solution.film.clone(), field_like(after, &solution.oil));
+                self.gap = after.clone();
+                Ok(solution)
+            }
+        }
+    }
+}
+
+/// Returns a field of this shape from its values.
+pub(super) fn field_like(field: &Field, values: &[f64]) -> Field {
+    Field::from_shape_vec(field.raw_dim(), values.to_vec()).expect("a value for each cell")
+}
