@@ -19,6 +19,7 @@ from ._conductance import Conductance, conductance
 from ._contact import Contact, contact, slide
 from ._fatigue import Fatigue, fatigue
 from ._gap_flow import GapFlow, flow
+from ._joint import Band, Joint, joint
 from ._plastic_state import PlasticState
 from ._progress import Progress
 from ._run import Run, open, run
@@ -48,6 +49,7 @@ from .surface import Surface, channels, read
 from .verification import Check, Verification, verification_cases, verify
 
 __all__ = [
+    "Band",
     "BearingCurve",
     "Body",
     "Check",
@@ -65,6 +67,7 @@ __all__ = [
     "Fields",
     "GapFlow",
     "GreenwoodWilliamson",
+    "Joint",
     "Material",
     "Parameter",
     "Parameters",
@@ -97,6 +100,7 @@ __all__ = [
     "flow",
     "form",
     "generate",
+    "joint",
     "keys",
     "materials",
     "oils",

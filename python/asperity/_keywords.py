@@ -37,17 +37,22 @@ class Execution(TypedDict, total=False):
         "Whether a progress bar is shown, if tqdm is installed; or a function that is called with each :class:`Progress`."]
 
 
-class Tasks(TypedDict, total=False):
-    """Keywords of the computation of a study."""
+class Samples(TypedDict, total=False):
+    """Keywords of the computation of many cases."""
 
-    task: Annotated[tuple[int, int] | None,
-        "Compute only a part of the cases: ``(3, 40)`` is the third case and every fortieth after it."]
     retry: Annotated[bool, "Compute failed cases again."]
     threads: Annotated[int | None,
         "Number of cases at a time; one for each core by default. If fewer are left, each gets several threads."]
     progress: Annotated[Told,
         "Whether a progress bar is shown, if tqdm is installed; or a function that is called with each :class:`Progress`, "
         "whose positions are the remaining cases."]
+
+
+class Tasks(Samples, total=False):
+    """Keywords of the computation of a study."""
+
+    task: Annotated[tuple[int, int] | None,
+        "Compute only a part of the cases: ``(3, 40)`` is the third case and every fortieth after it."]
 
 
 # fmt: on

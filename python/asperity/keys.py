@@ -25,6 +25,7 @@ __all__ = [
     "Film",
     "Flow",
     "Friction",
+    "Joint",
     "Lubrication",
     "Plasticity",
     "Stage",
@@ -391,11 +392,19 @@ class Lubrication(TypedDict, total=False):
     pressure_viscosity : float or str
         Pressure–viscosity coefficient α, the relative rise of the viscosity with pressure at ambient pressure; rise per
         pressure > 0. Without it: must be given with `viscosity`, but for `law = "constant"`.
-    law : {"constant", "barus", "roelands"}
-        How the viscosity rises with pressure: `"roelands"`; `"barus"`, exponentially, far too stiff above 0.3 GPa; or
+    law : {"constant", "barus", "roelands", "doolittle"}
+        How the viscosity rises with pressure: `"roelands"`; `"barus"`, exponentially, far too stiff above 0.3 GPa;
+        `"doolittle"`, by the free volume of the oil, which follows measured viscosities to several GPa; or
         `"constant"`. Without it: `"roelands"`, or that of `oil`.
+    bulk_modulus : float or str
+        Isothermal bulk modulus of the oil at ambient pressure; pressure > 0. Without it: must be given with `law =
+        "doolittle"`.
+    occupied_volume : float
+        Share of the volume of the oil at ambient pressure that its molecules occupy, below 1; number > 0. Without it:
+        must be given with `law = "doolittle"`.
     compressible : bool
-        Whether the density rises with pressure, by Dowson and Higginson. Without it: true, or that of `oil`.
+        Whether the density rises with pressure, by Dowson and Higginson, or by Tait with `law = "doolittle"`. Without
+        it: true, or that of `oil`.
     limiting_stress : float
         Largest shear stress of the oil over its pressure, the limiting stress coefficient; number > 0. Without it: no
         limit.
@@ -426,7 +435,9 @@ class Lubrication(TypedDict, total=False):
     oil: Literal["ISO VG 32", "ISO VG 46", "ISO VG 68", "ISO VG 100", "ISO VG 150", "ISO VG 220", "ISO VG 320", "PAO 4", "PAO 6", "PAO 40", "ester", "glycerol", "water"]
     viscosity: Quantity
     pressure_viscosity: Quantity
-    law: Literal["constant", "barus", "roelands"]
+    law: Literal["constant", "barus", "roelands", "doolittle"]
+    bulk_modulus: Quantity
+    occupied_volume: float
     compressible: bool
     limiting_stress: float
     eyring_stress: Quantity
@@ -493,6 +504,9 @@ class Flow(_RequiredFlow, total=False):
     width : float or str
         Width of the face of a seal along the flow, for which the leakage of a metre of seal is given. This leakage is
         inversely proportional to the width; length > 0. Without it: the length of the map along the flow.
+    shear : bool
+        Whether to compute how the surfaces carry and shear the fluid when they slide: the shear flow factor and the
+        stress factors of mean equations of lubrication. By default `false`.
     every : int
         Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed; 0: once a
         pass, where the left edges are flush, or for the last contact alone; whole number ≥ 0. By default `1`.
@@ -505,6 +519,7 @@ class Flow(_RequiredFlow, total=False):
     outlet: Quantity
     density: Quantity
     width: Quantity
+    shear: bool
     every: int
 
 
@@ -563,6 +578,27 @@ class Fatigue(_RequiredFatigue, total=False):
     layers: int
     every: int
     passes: Sequence[int]
+
+
+class Joint(TypedDict, total=False):
+    """Keys of ``joint``: law of a joint of rough surfaces: tangential stiffness, and theories beside.
+
+    Attributes
+    ----------
+    samples : int
+        Samples that `asperity joint` computes, each of generated surfaces from other seeds; whole number, 1 … 10000.
+        Without it: 1, or the number of patches.
+    patches : float or str
+        Patches along x and y into which `asperity joint` cuts measured surfaces; each is a sample; `[nx, ny]`, each ≥
+        1. Without it: the whole map.
+    every : int
+        Interval of the points of a sweep, or of the increments, that are computed; 0 for the last contact alone; whole
+        number ≥ 0. By default `1`.
+    """
+
+    samples: int
+    patches: Quantity
+    every: int
 
 
 class Wear(TypedDict, total=False):
@@ -654,11 +690,13 @@ class Capabilities(TypedDict, total=False):
     """Keywords of the capabilities."""
 
     flow: Annotated[Flow | None, "",
-        "Flow of a fluid through the gap: `viscosity`, `pressure`, `along`, `ends`, `gas`, `outlet`, `density`, `width`, `every`."]
+        "Flow of a fluid through the gap: `viscosity`, `pressure`, `along`, `ends`, `gas`, `outlet`, `density`, `width`, `shear`, `every`."]
     conductance: Annotated[Conductance | None, "",
         "Thermal or electrical conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`."]
     fatigue: Annotated[Fatigue | None, "",
         "Fatigue below the surfaces of bodies under loads that repeat: `to`, `layers`, `every`, `passes`."]
+    joint: Annotated[Joint | None, "",
+        "Law of a joint of rough surfaces: tangential stiffness, and theories beside: `samples`, `patches`, `every`."]
 
 
 class OfBody(TypedDict, total=False):
@@ -734,9 +772,9 @@ class Rest(TypedDict, total=False):
     subsurface: Annotated[Subsurface | None, "",
         "Stress below the surface: `to`, `layers`, `body`, `planes`, `section`, `columns`, `step`."]
     lubrication: Annotated[Lubrication | None, "",
-        "Oil between the bodies: `oil`, `viscosity`, `pressure_viscosity`, `law`, `compressible`, `limiting_stress`, "
-        "`eyring_stress`, `speed`, `speeds`, `sliding`, `boundary_film`, `boundary_friction`, `inlet_pressure`, "
-        "`outlet_pressure`."]
+        "Oil between the bodies: `oil`, `viscosity`, `pressure_viscosity`, `law`, `bulk_modulus`, `occupied_volume`, "
+        "`compressible`, `limiting_stress`, `eyring_stress`, `speed`, `speeds`, `sliding`, `boundary_film`, `boundary_friction`, "
+        "`inlet_pressure`, `outlet_pressure`."]
     pressure_every: Annotated[int | None, "output",
         "Interval of the steps whose fields are stored, from the first one on; 0: none. A position of a pass has its pressure, a "
         "point of a sweep and an increment of bodies that attract each other have pressure and gap; the point of the largest drag "
@@ -785,8 +823,8 @@ class Motion(TypedDict, total=False):
     speed_upper: Annotated[Quantity | None, "motion",
         "`\"shift\"` only: speed of the upper surface along x; at most one speed may be 0; speed. By default `\"1 m/s\"`."]
     speed: Annotated[Quantity | None, "motion",
-        "`\"overlap\"` only: speed of the upper body; required for growing films, temperature and viscoelastic bodies; speed > 0. "
-        "Without it: unknown."]
+        "`\"overlap\"` only: speed of the upper body; required for growing films, temperature, viscoelastic and lubricated bodies; "
+        "speed > 0. Without it: unknown."]
     pause: Annotated[Quantity | None, "motion",
         "Viscoelastic bodies only: time for which they are apart between two passes; without it the passes of a shift follow each "
         "other in contact; time ≥ 0. By default `0`."]
@@ -810,9 +848,9 @@ class Motion(TypedDict, total=False):
     subsurface: Annotated[Subsurface | None, "",
         "Stress below the surface: `to`, `layers`, `body`, `planes`, `section`, `columns`, `step`."]
     lubrication: Annotated[Lubrication | None, "",
-        "Oil between the bodies: `oil`, `viscosity`, `pressure_viscosity`, `law`, `compressible`, `limiting_stress`, "
-        "`eyring_stress`, `speed`, `speeds`, `sliding`, `boundary_film`, `boundary_friction`, `inlet_pressure`, "
-        "`outlet_pressure`."]
+        "Oil between the bodies: `oil`, `viscosity`, `pressure_viscosity`, `law`, `bulk_modulus`, `occupied_volume`, "
+        "`compressible`, `limiting_stress`, `eyring_stress`, `speed`, `speeds`, `sliding`, `boundary_film`, `boundary_friction`, "
+        "`inlet_pressure`, `outlet_pressure`."]
     pressure_every: Annotated[int | None, "output",
         "Interval of the steps whose fields are stored, from the first one on; 0: none. A position of a pass has its pressure, a "
         "point of a sweep and an increment of bodies that attract each other have pressure and gap; the point of the largest drag "

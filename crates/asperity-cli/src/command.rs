@@ -4,7 +4,8 @@ use clap::error::Error;
 use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::args::{
-    Check, Completions, Contact, Example, Init, Materials, Paper, Plot, Report, Run, Slide, Study, Surface,
+    Check, Completions, Contact, Example, Init, Joint, Materials, Paper, Plot, Report, Run, Slide, Study,
+    Surface,
 };
 use crate::from_map::FromMap;
 use crate::report::{Failure, Outcome, print, written};
@@ -43,6 +44,7 @@ pub(crate) enum Command {
     Init(Init),
     Run(Run),
     Study(Study),
+    Joint(Joint),
     Check(Check),
     Example(Example),
     #[command(subcommand)]

@@ -16,6 +16,7 @@ mod plot;
 mod report;
 mod run;
 mod signals;
+mod joint;
 mod study;
 mod surface;
 mod threads;
@@ -25,8 +26,10 @@ use std::ffi::OsString;
 
 use clap::Parser;
 
+pub use asperity_report::page::joint_in_words;
 pub use asperity_report::page::make as write_report;
 use command::{Arguments, Command};
+pub use joint::write_joint;
 pub use machine::{available as available_memory, name as machine_name, on_machine as memory_of_machine};
 pub use report::{Program, print_data, report_error, report_warning};
 pub use run::text as text_of_results;
@@ -61,6 +64,7 @@ fn command(arguments: impl IntoIterator<Item = OsString>) -> report::Outcome {
     threads::start(match &command {
         Command::Run(arguments) => arguments.threads,
         Command::Study(arguments) => arguments.threads,
+        Command::Joint(arguments) => arguments.threads,
         Command::Contact(arguments) => arguments.writing.threads,
         Command::Slide(arguments) => arguments.writing.threads,
         _ => None,
@@ -74,6 +78,7 @@ fn command(arguments: impl IntoIterator<Item = OsString>) -> report::Outcome {
         Command::Man => command::man(),
         Command::Run(arguments) => run::run(&arguments),
         Command::Study(arguments) => study::study(&arguments),
+        Command::Joint(arguments) => joint::joint(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Example(arguments) => example::example(&arguments),
         Command::Surface(arguments) => surface::surface(arguments),

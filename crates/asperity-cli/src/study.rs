@@ -101,7 +101,7 @@ fn changed(failure: Failure) -> Failure {
 }
 
 /// Computes the remaining cases, and reports each of them.
-fn compute(queue: &Queue, quiet: bool) -> Outcome {
+pub(crate) fn compute(queue: &Queue, quiet: bool) -> Outcome {
     if queue.is_empty() {
         return Ok(());
     }

@@ -99,7 +99,7 @@ pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
 pub use asperity_elastic::solver::adhesion;
 pub use asperity_elastic::{kernel, material, operator, reference, solver, stress};
 pub use asperity_surface as surface;
-pub use with::{conductance, fatigue, film, flow, wear};
+pub use with::{conductance, fatigue, film, flow, joint, wear};
 
 pub use choice::Choice;
 pub use error::{Error, Result};

@@ -11,6 +11,7 @@ mod describe; // description of surfaces
 mod errors; // exceptions
 mod maps; // what is computed from a map of a contact or of a gap
 mod fatigue;
+mod joint;
 mod passes; // a motion, pass after pass
 mod reference; // closed forms
 mod results; // reading of a results directory
@@ -41,6 +42,8 @@ mod _core {
     };
     #[pymodule_export]
     use super::fatigue::{damage, fatigue};
+    #[pymodule_export]
+    use super::joint::joint;
     #[pymodule_export]
     use super::passes::{CorePasses, run};
     #[pymodule_export]

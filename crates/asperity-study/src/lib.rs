@@ -95,6 +95,7 @@ mod surface_input; // surfaces in memory that a case names
 mod identity; // identity of a run, to resume it
 pub mod io; // fields in HDF5 and for ParaView, digests, locks
 mod json; // records as JSON
+pub mod joint; // the law of a joint for other programs
 mod joined; // the steps of a run with everything found in them
 mod limit; // a limit of the model that a result exceeds
 mod lubrication; // the oil between the bodies of a case

@@ -465,6 +465,12 @@ fn hint_for_key(error: &Error) -> Option<String> {
     error.hint().map(|hint| hint + &key.unwrap_or_default())
 }
 
+/// Returns the number of samples along x and y in the file of a source.
+pub(crate) fn samples_in_file(path: &Path, source: &Source) -> Result<[usize; 2]> {
+    let (scan, _) = read(path, &source.reading())?;
+    Ok([scan.heights.nrows(), scan.heights.ncols()])
+}
+
 /// Reads a file; also returns its digest.
 fn read(path: &Path, options: &ReadOptions) -> Result<(Scan, String)> {
     let bytes = asperity_surface::contents(path)?;

@@ -103,8 +103,8 @@
 pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
 pub use asperity_contact::each;
 pub use asperity_contact::{
-    adhesion, conductance, fatigue, film, flow, kernel, lubrication, material, motion, operator, plasticity,
-    reference, solver, stress, subsurface, temperature, verification, viscoelastic, wear, with,
+    adhesion, conductance, fatigue, film, flow, joint, kernel, lubrication, material, motion, operator,
+    plasticity, reference, solver, stress, subsurface, temperature, verification, viscoelastic, wear, with,
 };
 #[cfg(feature = "study")]
 pub use asperity_study as study;

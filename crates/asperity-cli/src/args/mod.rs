@@ -2,6 +2,7 @@
 
 mod drawing;
 mod generate;
+mod joint;
 mod pair;
 mod preparation;
 mod study;
@@ -19,6 +20,7 @@ use values::{choice, threads};
 
 pub(crate) use drawing::{Drawing, RangedDrawing};
 pub(crate) use generate::Generate;
+pub(crate) use joint::Joint;
 pub(crate) use pair::{Bodies, Contact, Init, Load, Materials, PairWriting, Slide, load, pair_of_materials};
 pub(crate) use study::Study;
 pub(crate) use surface::{Convert, Info, Input, PlotSurface, ReadingArguments, Surface};

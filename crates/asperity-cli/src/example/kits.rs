@@ -8,7 +8,7 @@ pub(crate) struct ExampleFiles {
 }
 
 /// The examples, in the order of their list.
-pub(crate) const KITS: [ExampleFiles; 15] = [
+pub(crate) const KITS: [ExampleFiles; 16] = [
     ExampleFiles {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
@@ -89,6 +89,11 @@ pub(crate) const KITS: [ExampleFiles; 15] = [
             ("samples.toml", include_bytes!("../../examples/seal/samples.toml")),
             ("disc.x3p", include_bytes!("../../examples/measured/disc.x3p")),
         ],
+    },
+    ExampleFiles {
+        name: "joint",
+        about: "a bolted joint of ground steel: stiffness, conductance and flow factors for a finite element program",
+        files: &[("case.toml", include_bytes!("../../examples/joint/case.toml"))],
     },
     ExampleFiles {
         name: "study",

@@ -16,6 +16,7 @@ fn every_command_has_help_with_an_exit_code() {
     for command in [
         "run",
         "study",
+        "joint",
         "check",
         "example",
         "surface",
@@ -379,7 +380,7 @@ fn every_example_is_accepted_by_check_with_no_warning_but_that_of_a_long_stride(
     assert_eq!(
         names.join(" "),
         "quickstart hertz friction fretting stribeck viscoelastic micropitting measured running-in rolling pull-off \
-         contact-challenge seal study paper"
+         contact-challenge seal joint study paper"
     );
     for name in names {
         ok(&asperity(&folder, &format!("example {name}")));

@@ -31,7 +31,7 @@ struct Variant {
     except: &'static [&'static str],
 }
 
-const VARIANTS: [Variant; 26] = [
+const VARIANTS: [Variant; 27] = [
     as_it_stands("quickstart"),
     as_it_stands("hertz"),
     as_it_stands("friction"),
@@ -63,6 +63,17 @@ const VARIANTS: [Variant; 26] = [
         ],
         tolerance: 1e-4,
         except: &["iterations", "convolutions"],
+    },
+    Variant {
+        name: "joint-small",
+        example: "joint",
+        edits: &[
+            ("shape = [128, 128]", "shape = [32, 32]"),
+            ("points = 10", "points = 3"),
+            ("boundary = \"periodic\"", "tolerance = 1e-12\nboundary = \"periodic\""),
+        ],
+        tolerance: 1e-7,
+        except: &["convolutions"],
     },
     Variant {
         name: "viscoelastic-small",
@@ -357,7 +368,7 @@ fn every_example_has_its_digests() {
             count
         });
         // The digest of 100 000 passes would be as long as their results. Elasto-plastic bodies and 512 × 512
-        // cells take minutes. The whole example of fatigue repeats the small one. In fretting the number of
+        // cells take minutes. The whole examples of fatigue and of a joint repeat the small ones. In fretting the number of
         // cycles of an extrapolation depends on rounding.
         let without = [
             "running-in",
@@ -366,6 +377,7 @@ fn every_example_has_its_digests() {
             "fretting",
             "viscoelastic",
             "stribeck",
+            "joint",
             "micropitting",
         ];
         let wanted = usize::from(!without.iter().any(|example| name == **example));

@@ -11,6 +11,7 @@
 //! | [`flow`] | `[flow]` | the leakage of a fluid through the gap |
 //! | [`conductance`] | `[conductance]` | heat or current through a contact |
 //! | [`fatigue`] | `[fatigue]` | fatigue below bodies under loads that repeat |
+//! | [`joint`] | `[joint]` | tangential stiffness of a joint, and theories beside |
 //!
 //! A [`BodyLaw`] is a folder, too: what contacts do to a body.
 //!
@@ -47,6 +48,7 @@ pub mod conductance;
 pub mod fatigue;
 pub mod film;
 pub mod flow;
+pub mod joint;
 pub mod lubrication;
 pub mod plasticity;
 pub mod viscoelastic;
@@ -81,7 +83,7 @@ use views::{Answer, Kept, Line, OfPoints};
 /// let mut names = Vec::new();
 /// each!(capability C => names.push(C::NAME));
 /// each!(law L => names.push(L::NAME));
-/// assert_eq!(names, ["flow", "conductance", "fatigue", "wear", "film"]);
+/// assert_eq!(names, ["flow", "conductance", "fatigue", "joint", "wear", "film"]);
 /// ```
 #[macro_export]
 macro_rules! each {
@@ -94,6 +96,8 @@ macro_rules! each {
                 conductance::Joint,
                 /// Fatigue below bodies under loads that repeat.
                 fatigue::Fatigue,
+                /// The law of a joint under each load.
+                joint::JointLaw,
             ]
             $($what)+
         }

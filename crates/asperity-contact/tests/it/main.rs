@@ -13,6 +13,7 @@ mod flow;
 mod friction;
 mod in_place;
 mod interface;
+mod joint;
 mod kinematics;
 mod laws;
 mod line;

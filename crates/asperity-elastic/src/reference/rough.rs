@@ -1,8 +1,9 @@
-//! Real contact area of random rough surfaces, as a fraction of the apparent area.
+//! Theories of random rough surfaces: real area of contact, as a fraction of the apparent area; pressure and gap.
 
-use std::f64::consts::SQRT_2;
+use std::f64::consts::{PI, SQRT_2};
 
-use crate::units::{Newton, Pascal, SquareMetre};
+use crate::math::integrate;
+use crate::units::{Metre, Newton, Pascal, SquareMetre};
 
 /// κ = √(2π) of Bush, Gibson & Thomas, Wear 35, 87 (1975), in A/A₀ = κ p̄/(E* h′).
 pub const BGT_COEFFICIENT: f64 = 2.506_628_274_631_000_7;
@@ -23,6 +24,82 @@ pub fn persson_area_fraction(mean_pressure: Pascal, modulus: Pascal, rms_slope: 
     libm::erf(SQRT_2 * mean_pressure / (modulus * rms_slope))
 }
 
+/// Length over which the pressure between elastic rough surfaces falls by e with the mean gap, over the rms height σ of
+/// the gap: p = β E* exp(−g/γσ), so that the normal stiffness of an area is p/γσ. Persson, Phys. Rev. Lett. 99, 125502
+/// (2007).
+pub const PERSSON_DECAY: f64 = 0.4;
+
+/// Spectral moments of an isotropic random gap, along a profile.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpectralMoments {
+    /// m₀, the mean square of the heights about their mean, m².
+    pub height: f64,
+    /// m₂, the mean square of the slopes of a profile: half of that of |∇h|.
+    pub slope: f64,
+    /// m₄, the mean square of the curvatures of a profile, 1/m².
+    pub curvature: f64,
+}
+
+impl SpectralMoments {
+    /// Nayak's parameter α = m₀ m₄/m₂², at least 1.5 of an isotropic surface: how broad its spectrum is.
+    pub fn nayak(&self) -> f64 {
+        self.height * self.curvature / (self.slope * self.slope)
+    }
+}
+
+/// The theory of Greenwood and Williamson: independent spherical peaks of one radius, whose heights are normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GreenwoodWilliamson {
+    /// Peaks on an area, 1/m².
+    pub density: f64,
+    /// Radius of the peaks.
+    pub radius: Metre,
+    /// Standard deviation σ_s of their heights.
+    pub deviation: Metre,
+    /// Height z̄ of their mean above the mean plane of the surface.
+    pub height: Metre,
+}
+
+impl GreenwoodWilliamson {
+    /// The peaks of an isotropic Gaussian gap. `None` of one whose spectrum has no peaks in this sense, α ≤ 0.8968.
+    ///
+    /// Nayak, J. Lubr. Technol. 93, 398 (1971); McCool, Wear 107, 37 (1986).
+    pub fn from_moments(moments: &SpectralMoments) -> Option<Self> {
+        let SpectralMoments { height, slope, curvature } = *moments;
+        let alpha = moments.nayak();
+        let this = Self {
+            density: curvature / (6.0 * PI * 3f64.sqrt() * slope),
+            radius: 0.375 * (PI / curvature).sqrt(),
+            deviation: (height * (1.0 - 0.8968 / alpha)).sqrt(),
+            height: 4.0 * (height / (PI * alpha)).sqrt(),
+        };
+        [this.density, this.radius, this.deviation]
+            .iter()
+            .all(|value| *value > 0.0 && value.is_finite())
+            .then_some(this)
+    }
+
+    /// Mean pressure at a mean gap between the planes of the surfaces: (4/3) η E* √R σ_s^(3/2) F((g − z̄)/σ_s), with
+    /// F(H) = ∫ (s − H)^(3/2) φ(s) ds over s > H. Greenwood & Williamson, Proc. R. Soc. Lond. A 295, 300 (1966).
+    pub fn pressure(&self, modulus: Pascal, gap: Metre) -> Pascal {
+        let Self { density, radius, deviation, height } = *self;
+        let distance = (gap - height) / deviation;
+        let overlap = peaks_beyond(distance, 1.5);
+        4.0 / 3.0 * density * modulus * radius.sqrt() * deviation.powf(1.5) * overlap
+    }
+}
+
+/// Returns F_n(H) = ∫ (s − H)ⁿ φ(s) ds over s > H, with the normal density φ: peaks that reach beyond a distance of H
+/// standard deviations.
+pub fn peaks_beyond(distance: f64, power: f64) -> f64 {
+    /// Heights beyond this many standard deviations do not count.
+    const REACH: f64 = 12.0;
+    let normal = |s: f64| (-0.5 * s * s).exp() / (2.0 * PI).sqrt();
+    // s = H + t², without the root at the end.
+    let end = (REACH.max(distance + 4.0) - distance).sqrt();
+    integrate(0.0, end, |t| 2.0 * t * t.powf(2.0 * power) * normal(distance + t * t))
+}
+
 /// Area A = W/H if the whole contact yields, the limit for H ≪ E* h′: the smallest area that carries the
 /// load. Bowden & Tabor (1950).
 pub fn fully_plastic_area(load: Newton, hardness: Pascal) -> SquareMetre {
@@ -33,7 +110,6 @@ pub fn fully_plastic_area(load: Newton, hardness: Pascal) -> SquareMetre {
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
-    use std::f64::consts::PI;
 
     #[test]
     fn the_coefficients_are_the_theories() {
@@ -53,6 +129,30 @@ mod tests {
             );
         }
         assert_relative_eq!(persson_area_fraction(10.0, 1.0, 1.0), 1.0, max_relative = 1e-15);
+    }
+
+    #[test]
+    fn peaks_beyond_a_distance_have_their_moments() {
+        // F₀ is the share beyond, F₁ = φ(H) − H F₀; far below all peaks they are 1 and −H. F₅⸝₂(0) = 0.616634.
+        for h in [-1.0_f64, 0.0, 1.5, 3.0] {
+            let share = 0.5 * libm::erfc(h / SQRT_2);
+            let density = (-0.5 * h * h).exp() / (2.0 * PI).sqrt();
+            assert_relative_eq!(peaks_beyond(h, 0.0), share, max_relative = 1e-8);
+            assert_relative_eq!(peaks_beyond(h, 1.0), density - h * share, max_relative = 1e-8);
+        }
+        assert_relative_eq!(peaks_beyond(0.0, 2.5), 0.616_634_0, max_relative = 1e-5);
+    }
+
+    #[test]
+    fn greenwood_and_williamson_have_peaks_above_the_mean_plane() {
+        let moments = SpectralMoments { height: 1e-14, slope: 4.5e-4, curvature: 5e7 };
+        assert_relative_eq!(moments.nayak(), 2.469_135_8, max_relative = 1e-6);
+        let theory = GreenwoodWilliamson::from_moments(&moments).unwrap();
+        let [one, next] = [2.0, 2.1].map(|gap| theory.pressure(115e9, gap * 1e-7));
+        assert!(one > 1e5 && one < 1e8 && next < one, "{one:e} {next:e}");
+        // Twice the modulus bears twice as much.
+        assert_relative_eq!(theory.pressure(230e9, 2e-7), 2.0 * one, max_relative = 1e-12);
+        assert_eq!(GreenwoodWilliamson::from_moments(&SpectralMoments { curvature: 1e6, ..moments }), None);
     }
 
     #[test]

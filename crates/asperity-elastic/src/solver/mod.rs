@@ -19,6 +19,7 @@ mod residual;
 mod sets;
 mod site;
 mod stiffness;
+mod tangential_stiffness;
 mod together;
 mod uniform;
 
@@ -39,6 +40,7 @@ pub use interface::{Before, HardWall, Interface, InterfaceCost, NormalProblem};
 pub use residual::{Residual, residual};
 pub use site::{OwnedSite, Site, coarse_site};
 pub use stiffness::normal_stiffness;
+pub use tangential_stiffness::tangential_stiffness;
 pub use together::{solve_batch, solve_together};
 pub use uniform::{UniformDisplacement, displace_uniformly};
 

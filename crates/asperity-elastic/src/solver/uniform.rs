@@ -213,7 +213,7 @@ impl Gradients {
 
 /// The preconditioner: that of a contact on the cells which the bodies displace, and their own compliance on
 /// those which hardly anything else displaces.
-struct CellPreconditioner {
+pub(super) struct CellPreconditioner {
     sets: Sets,
     /// None without cells that the bodies displace.
     bodies: Option<Preconditioner>,
@@ -223,7 +223,7 @@ struct CellPreconditioner {
 
 impl CellPreconditioner {
     /// Preconditioner of cells without a compliance of their own.
-    fn alike(operator: &dyn Operator, cells: &Array2<bool>) -> Self {
+    pub(super) fn alike(operator: &dyn Operator, cells: &Array2<bool>) -> Self {
         let sets = sets(cells.dim().into(), cells.iter().copied().collect());
         let mut bodies = Preconditioner::new(operator);
         bodies.adapt(&sets);
@@ -258,7 +258,12 @@ impl CellPreconditioner {
     }
 
     /// Computes the preconditioned residual.
-    fn apply(&mut self, residual: &Field, single: &mut SingleField, preconditioned: &mut SingleField) {
+    pub(super) fn apply(
+        &mut self,
+        residual: &Field,
+        single: &mut SingleField,
+        preconditioned: &mut SingleField,
+    ) {
         let Self { sets, bodies, alone } = self;
         single.zip_mut_with(residual, |single, r| *single = *r as f32);
         let [r, z] = [&mut *single, preconditioned].map(|f| f.as_slice_mut().expect("standard layout"));

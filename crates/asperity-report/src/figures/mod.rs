@@ -5,6 +5,7 @@ mod plastic;
 mod force_distance;
 mod fretting;
 mod friction;
+mod joint;
 mod loading;
 mod lubrication;
 mod motion;
@@ -39,6 +40,8 @@ pub(crate) use capability::{curves as curves_of_capability, load_cycle, logarith
 pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper};
 pub(crate) use force_distance::curves as of_force_distance;
 pub(crate) use friction::stick;
+pub(crate) use joint::curves as joint_curves;
+pub use joint::draw_joint;
 pub(crate) use loading::curves as of_loading;
 pub(crate) use plastic::{PlasticSection, of_increments as of_plastic_increments, plastic_sections};
 pub(crate) use pressure::histogram;

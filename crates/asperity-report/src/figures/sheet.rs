@@ -42,14 +42,22 @@ impl<'a> Sheet<'a> {
         wanted: &'a FigureOptions,
         stop: &'a (dyn Fn() -> bool + Sync),
     ) -> Result<Self> {
-        let title = results.case()?.title;
+        Ok(Self::into_folder(results.figures_folder(), &results.case()?.title, wanted, stop))
+    }
+
+    /// A sheet whose figures go into a folder, of what has this title.
+    pub(super) fn into_folder(
+        folder: PathBuf,
+        title: &str,
+        wanted: &'a FigureOptions,
+        stop: &'a (dyn Fn() -> bool + Sync),
+    ) -> Self {
         let mut case: String = title.chars().take(MAX_CHARACTERS).collect();
         if case.len() < title.len() {
             case.push('…');
         }
-        let folder = results.figures_folder();
         let (names, drawings, pictures) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { folder, wanted, case, names, drawings, beside: None, pictures, stop })
+        Self { folder, wanted, case, names, drawings, beside: None, pictures, stop }
     }
 
     /// Also draws the figures of these names on another paper, whether they are wanted or not.

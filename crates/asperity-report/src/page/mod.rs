@@ -15,6 +15,7 @@ mod plastic;
 mod head;
 mod html;
 mod interface;
+mod joint;
 mod layers;
 mod live;
 mod numbers;
@@ -47,6 +48,7 @@ use serde_json::{Value, json};
 
 use crate::draw::{Colours, Paper, palette};
 use crate::figures::{self, FigureOptions};
+pub use joint::{joint_in_words, write_joint};
 pub use live::LivePage;
 use page_data::PageData;
 use quantised::QuantisedField;

@@ -1,7 +1,7 @@
 //! Captions of the charts and maps of the page, as in a paper.
 
 /// Captions by the names of figures and of the maps of a contact. A capability has its own.
-const CAPTIONS: [(&str, &str); 46] = [
+const CAPTIONS: [(&str, &str); 50] = [
     (
         "approach",
         "Rigid-body approach of each pass, with what the surfaces have lost by plastic deformation.",
@@ -33,6 +33,22 @@ const CAPTIONS: [(&str, &str); 46] = [
     ),
     ("friction", "Force of friction at each position."),
     ("gap", "Distance of the deformed surfaces where they do not touch."),
+    (
+        "joint_area",
+        "Real over apparent area, corrected for the edges of spots: median and band of the samples, beside theories of random surfaces.",
+    ),
+    (
+        "joint_closure",
+        "What a program takes between two bodies. The closure is 0 without pressure; below the least computed pressure the law is continued.",
+    ),
+    (
+        "joint_conductance",
+        "Heat or current through a unit of the apparent area under a unit of difference: median and band of the samples.",
+    ),
+    (
+        "joint_stiffness",
+        "Rise of pressure with closure, and of shear with displacement along the surfaces of spots that stick: median and band of the samples.",
+    ),
     ("load", "Load at each position: it grows with the overlap where the bodies enter and leave."),
     (
         "loading",

@@ -51,6 +51,19 @@ impl Study {
         Self::of(study_file::read(text, path)?)
     }
 
+    /// Makes a study of these cases of the case file at `path`: the values of each key, case after case. `change` prepares
+    /// the base.
+    ///
+    /// # Errors
+    /// The errors of [`Study::load`].
+    pub(crate) fn of_cases(
+        path: &Path,
+        keys: Vec<(String, Vec<toml::Value>)>,
+        change: impl FnOnce(&mut toml::Table),
+    ) -> Result<Self> {
+        Self::of(study_file::of_cases(path, keys, change)?)
+    }
+
     fn of(file: StudyFile) -> Result<Self> {
         let indices = indices(&file)?;
         let study = Self { file, indices };

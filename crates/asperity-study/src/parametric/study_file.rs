@@ -70,6 +70,37 @@ pub(super) fn read(text: &str, path: &Path) -> Result<StudyFile> {
     Ok(StudyFile { title, document: document.clone(), base, axes: all, rows, exclusions })
 }
 
+/// Makes the content of a study of these cases of a case file.
+pub(super) fn of_cases(
+    path: &Path,
+    keys: Vec<(String, Vec<Value>)>,
+    change: impl FnOnce(&mut toml::Table),
+) -> Result<StudyFile> {
+    let text = text_of(path, "a case file", MAX_CASE_BYTES)?;
+    let mut document = Document::named("the case", path.to_owned(), &text);
+    document.parse(&text)?;
+    let mut table = toml::from_str(&text).expect("what has been parsed once is TOML");
+    change(&mut table);
+    let title = table.get("title").and_then(Value::as_str).map(str::to_owned);
+    let title =
+        title.or(path.file_stem().map(|stem| stem.to_string_lossy().into_owned())).unwrap_or_default();
+    let cases = keys.iter().map(|(_, values)| values.len()).min().unwrap_or(0);
+    let rows = (0..cases).map(|case| vec![case as u32; keys.len()]).collect();
+    let axis = |(key, values): (String, Vec<Value>)| {
+        let values = values.into_iter().map(|value| ValueInFile { value, span: 0..0 }).collect();
+        Axis::new(key, values)
+    };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    Ok(StudyFile {
+        title,
+        base: Base::new(table, [folder; 2], document.clone(), ""),
+        axes: keys.into_iter().map(axis).collect(),
+        rows: Some(Rows { document: document.clone(), first: 0, rows }),
+        document,
+        exclusions: Vec::new(),
+    })
+}
+
 /// Returns a message and a hint for a table of a case that is misplaced in a study file.
 fn belongs(key: &str) -> Option<(String, Option<String>)> {
     let unknown = |hint| Some((format!("unknown key '{key}' in the study"), Some(hint)));

@@ -13,6 +13,7 @@ mod fretting;
 mod good_inputs;
 mod hardness;
 mod in_place;
+mod joint;
 mod limits;
 mod loading;
 mod lubrication;

@@ -10,8 +10,13 @@ use crate::support::{crates, files_below};
 const CAPABILITIES: [(&str, &[&str], &[&str]); 7] = [
     (
         "conductance",
-        &["with/conductance"],
+        // The law of a joint has what capabilities find under its loads.
+        &["with/conductance", "src/joint/", "figures/joint.rs", "page/joint.rs"],
         &[
+            // A case that shows it, and the caption of its figure.
+            "asperity-cli/src/example/kits.rs",
+            "asperity-report/src/words/captions.rs",
+            "asperity/_joint.py",
             // The list, and its names in both libraries.
             "asperity-contact/src/with/mod.rs",
             "asperity-contact/src/lib.rs",
@@ -32,7 +37,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 7] = [
     ),
     (
         "leakage",
-        &["with/flow"],
+        &["with/flow", "src/joint/"],
         &[
             "asperity-contact/src/with/mod.rs",
             "asperity-contact/src/lib.rs",
@@ -186,7 +191,13 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 7] = [
     ),
     (
         "lubric",
-        &["src/lubrication/", "with/lubrication", "motion/lubricated", "record/lubrication.rs"],
+        &[
+            "src/lubrication/",
+            "with/lubrication",
+            "motion/lubricated",
+            "motion/moving_film.rs",
+            "record/lubrication.rs",
+        ],
         &[
             // The list, and its names in both libraries.
             "asperity-contact/src/with/mod.rs",
@@ -195,6 +206,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 7] = [
             "asperity/src/lib.rs",
             // A pair with an oil between its bodies, and their films in sweeps and passes.
             "asperity-contact/src/motion/mod.rs",
+            "asperity-contact/src/motion/contact.rs",
             "asperity-contact/src/motion/course.rs",
             "asperity-contact/src/motion/pair.rs",
             "asperity-contact/src/motion/pass.rs",
@@ -215,6 +227,9 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 7] = [
             "with/film/table.rs",
             "with/wear/table.rs",
             "with/flow/doubts.rs",
+            // Factors of mean equations of lubrication.
+            "with/flow/shear.rs",
+            "with/flow/table.rs",
             // A case of such bodies: its keys, rules and oil, its fields.
             "asperity-study/src/lubrication.rs",
             "asperity-study/src/lib.rs",
@@ -222,6 +237,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 7] = [
             "asperity-study/src/static_contact.rs",
             "asperity-study/src/case/mod.rs",
             "asperity-study/src/case/course.rs",
+            "asperity-study/src/case/motion.rs",
             "asperity-study/src/case/rules/mod.rs",
             "asperity-study/src/case/rules/examples.rs",
             "asperity-study/src/case/rules/lubrication.rs",

@@ -35,6 +35,7 @@ mod ordering;
 mod pressure;
 mod record;
 mod rules;
+mod shear;
 mod table;
 mod views;
 
@@ -44,6 +45,7 @@ pub use faces::Faces;
 pub use fluid::Fluid;
 pub use observer::FlowObserver;
 pub use record::FlowRecord;
+pub use shear::{ShearFlow, shear_flow, sliding_stress_factor};
 pub use table::Leakage;
 pub use views::{CONSTRICTION, LEAST_FLOW, TITLES, leaks};
 
@@ -262,9 +264,22 @@ pub struct FlowAlong {
     length: Metre,
     /// Width of the grid across the axis.
     width: Metre,
+    /// Whether the axis is y.
+    is_along_y: bool,
 }
 
 impl FlowAlong {
+    /// Returns the stress factor φ_fp: the mean of gap times gradient of pressure, over the mean gap times the mean
+    /// gradient; 0 without a path. The gap is that of the flow.
+    pub fn pressure_stress_factor(&self, gap: &Field) -> f64 {
+        let [along_x, along_y] = self.flux_at_centres();
+        let flux = if self.is_along_y { along_y } else { along_x };
+        let flowing = gap.iter().zip(&flux).filter(|(gap, _)| **gap > 0.0);
+        let mean = gap.iter().map(|gap| gap.max(0.0)).sum::<f64>();
+        // −∂P/∂x = q/g³, of a unit gradient.
+        if mean > 0.0 { flowing.map(|(gap, flux)| flux / (gap * gap)).sum::<f64>() / mean } else { 0.0 }
+    }
+
     /// Computes the flux per width at the centres of the cells, m³ as [`Self::flux`]: `[along x, along y]`,
     /// means of two faces.
     pub fn flux_at_centres(&self) -> [Field; 2] {
@@ -541,6 +556,7 @@ impl<'a> Part<'a> {
             flowing: Array2::from_shape_vec((nx, ny), flowing).expect("a cell has a place"),
             length: grid.extent()[axis],
             width,
+            is_along_y: axis == 1,
         })
     }
 }

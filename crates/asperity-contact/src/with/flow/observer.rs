@@ -1,9 +1,12 @@
 //! Flow of a fluid through the gap of the contacts of a case.
 
-use super::{Faces, FlowAlong, FlowRecord, Leakage, Settings, Sides, solve};
+use super::{
+    Faces, FlowAlong, FlowRecord, Leakage, Settings, Sides, shear_flow, sliding_stress_factor, solve,
+};
 use crate::error::Result;
-use crate::motion::ObservedContact;
+use crate::motion::{ObservedContact, Position};
 use crate::surface::Axis;
+use crate::units::Metre;
 use crate::with::{Given, NamedField, Observer, Place};
 
 /// Computes the flow through the gap of each contact.
@@ -12,7 +15,12 @@ pub struct FlowObserver {
     leakage: Leakage,
     /// One for both axes if the gap goes on alike along both, else one for each axis.
     settings: Vec<Settings>,
+    /// Rms height of the sum of both surfaces at full overlap.
+    rms_height: Metre,
 }
+
+/// Least film with a viscous stress, over the rms height.
+const LEAST_FILM: f64 = 0.01;
 
 impl FlowObserver {
     pub(super) fn new(leakage: &Leakage, given: &Given<'_>) -> Self {
@@ -20,7 +28,12 @@ impl FlowObserver {
         let ends = [0, 1].map(|axis| leakage.ends_along(axis, boundary));
         let sides =
             [1, 0].map(|across| if boundary.repeats(across) { Sides::Periodic } else { Sides::Closed });
-        Self { leakage: *leakage, settings: Settings::of_axes(ends, sides, Faces::default(), leakage.along) }
+        let columns = given.pair.lower.columns().min(given.pair.upper.columns());
+        Self {
+            leakage: *leakage,
+            settings: Settings::of_axes(ends, sides, Faces::default(), leakage.along),
+            rms_height: given.pair.initial_gap(&Position::flush(columns)).std(0.0),
+        }
     }
 
     /// Fields of the flow along one axis: pressure above that of the outlet, and flow per width.
@@ -54,6 +67,8 @@ impl Observer for FlowObserver {
             let along = found.along.iter().enumerate();
             along.filter_map(move |(axis, along)| Some((found, axis, along.as_ref()?)))
         });
+        let shear = self.leakage.shear.then(|| shear_flow(&contact.gap, &grid, Faces::default()));
+        let sliding = shear.map(|_| sliding_stress_factor(&contact.gap, LEAST_FILM * self.rms_height));
         for (found, axis, along) in each {
             let critical = along.critical_cell;
             let [x, y] =
@@ -78,6 +93,12 @@ impl Observer for FlowObserver {
                 critical_cells: along.critical_cells,
                 flowing_share: along.flowing_share,
                 trapped_volume: along.trapped_volume,
+                shear_flow_factor: shear
+                    .map(|shear| shear[axis].carried / self.rms_height)
+                    .filter(|factor| factor.is_finite()),
+                shear_stress_factor: shear.map(|shear| shear[axis].stress_factor),
+                sliding_stress_factor: sliding,
+                pressure_stress_factor: shear.map(|_| along.pressure_stress_factor(&contact.gap)),
                 effective_medium: found.effective_medium,
                 estimate: along.estimate,
                 residual: along.residual.max(along.dissipation),

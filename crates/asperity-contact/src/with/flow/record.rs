@@ -57,6 +57,21 @@ columns! {
         pub flowing_share: f64,
         /// Volume in open cells from which no path leads out.
         pub trapped_volume: CubicMetre,
+        /// Shear flow factor Φ_s: what a rough surface that slides over a smooth one carries besides the mean gap, over the
+        /// rms height of the sum of both surfaces; left out unless it is asked for.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub shear_flow_factor: Option<f64>,
+        /// Shear stress factor φ_fs: the shear that the pressure adds, over that of the mean gap.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub shear_stress_factor: Option<f64>,
+        /// Stress factor φ_f of sliding: the mean of the reciprocal film over the reciprocal mean gap, of films of at least
+        /// a hundredth of the rms height.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub sliding_stress_factor: Option<f64>,
+        /// Stress factor φ_fp of a gradient of pressure: the mean of film times gradient over the mean gap times the mean
+        /// gradient.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub pressure_stress_factor: Option<f64>,
         /// Permeability of the effective medium of Bruggeman with these gaps, a comparison.
         pub effective_medium: CubicMetre,
         /// Estimate of the relative error of the permeability by the grid.
@@ -135,6 +150,10 @@ impl FlowRecord {
             critical_cells,
             flowing_share: mean(|row| row.flowing_share),
             trapped_volume: mean(|row| row.trapped_volume),
+            shear_flow_factor: None,
+            shear_stress_factor: None,
+            sliding_stress_factor: None,
+            pressure_stress_factor: None,
             effective_medium: mean(|row| row.effective_medium),
             estimate: most(|row| row.estimate),
             residual: most(|row| row.residual),

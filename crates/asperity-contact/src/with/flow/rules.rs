@@ -1,6 +1,7 @@
 //! The rules of a flow.
 
 use super::{Ends, Leakage};
+use crate::operator::Boundary;
 use crate::with::Rule;
 
 pub(super) const RULES: &[Rule<Leakage>] = &[
@@ -35,6 +36,17 @@ pub(super) const RULES: &[Rule<Leakage>] = &[
         broken: |leakage, surroundings| {
             let is_free = |axis: usize| leakage.along.axes()[axis] && !surroundings.boundary.repeats(axis);
             leakage.ends == Some(Ends::Periodic) && (0..2).any(is_free)
+        },
+    },
+    Rule {
+        this: "`shear` in [flow]",
+        with: "a boundary that is free along an axis, [motion]",
+        message: "'shear' needs surfaces at rest that repeat along both axes",
+        hint: "set `boundary = \"periodic\"` in [contact], and leave [motion] out: the factors are those of surfaces that slide",
+        at: "flow.shear",
+        example: &[r#"flow = { viscosity = "80 mPa s", shear = true }"#],
+        broken: |leakage, surroundings| {
+            leakage.shear && (surroundings.boundary != Boundary::PERIODIC || surroundings.moves)
         },
     },
 ];

@@ -55,6 +55,11 @@ pub struct Leakage {
     #[key(quantity = Length, range = AboveZero, absent = "the length of the map along the flow", example = "\"2 mm\"", exists = FACE, beside = [NARROW])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<Metre>,
+    /// Whether to compute how the surfaces carry and shear the fluid when they slide: the shear flow factor and the stress
+    /// factors of mean equations of lubrication.
+    #[key(flag, default = false, example = "true")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub shear: bool,
     /// Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed;
     /// 0: once a pass, where the left edges are flush, or for the last contact alone.
     #[key(count = 0, default = 1, example = "4")]

@@ -254,6 +254,7 @@ mod tests {
         outlet: None,
         density: None,
         width: None,
+        shear: false,
         every: 1,
     };
 
@@ -279,6 +280,10 @@ mod tests {
             critical_cells: 1,
             flowing_share: 0.5,
             trapped_volume: 0.0,
+            shear_flow_factor: None,
+            shear_stress_factor: None,
+            sliding_stress_factor: None,
+            pressure_stress_factor: None,
             effective_medium: 1e-22,
             estimate: 0.01,
             residual: 1e-12,

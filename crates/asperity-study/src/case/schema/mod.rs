@@ -271,7 +271,8 @@ mod tests {
         check_table::<UpperKeys>("");
         check_table::<Ends>("from = 1\nto = 2");
         check_table::<Attraction>("work = 0.05\nrange = 2e-9");
-        check_table::<Lubricant>("viscosity = 0.04\npressure_viscosity = 2e-8\nspeed = 1");
+        let oil = "viscosity = 0.04\npressure_viscosity = 2e-8\nspeed = 1\nlaw = \"doolittle\"\nbulk_modulus = 1.4e9\noccupied_volume = 0.6";
+        check_table::<Lubricant>(oil);
         let topography = |kind: &str, beside: &str| {
             let path = TopographySpec::TABLES[0];
             check_examples(path, &TopographySpec::sections(), kind, beside, TopographySpec::read);

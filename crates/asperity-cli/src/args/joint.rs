@@ -1,0 +1,58 @@
+//! Arguments of `asperity joint`.
+
+use std::path::PathBuf;
+
+use asperity::solver::Device;
+use asperity::study::joint::{Client, Units};
+use clap::Args;
+
+use super::values::{choice, threads};
+
+/// Compute the law of a joint of rough surfaces for other programs
+///
+/// The case has several loads under a periodic boundary. Its table [joint] says how many samples of the surfaces are
+/// computed: other seeds of generated ones, or patches of measured ones. DIR/joint.csv has the median and the band at each
+/// load, DIR/joint.html shows it, DIR/figures has the figures, and --for writes files for other programs. If it is stopped
+/// or killed, run the same command again.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  asperity example joint\n  asperity joint joint/case.toml --for calculix --for coefficients\n  asperity joint joint.toml --for abaqus \
+--friction 0.2 --out plates"
+)]
+pub(crate) struct Joint {
+    /// Case file
+    #[arg(value_name = "CASE.toml")]
+    pub(crate) case: PathBuf,
+    /// Program for which files are written: csv, calculix, abaqus, ansys, comsol, moose, opensees or coefficients;
+    /// may be repeated
+    #[arg(long = "for", value_name = "PROGRAM", value_parser = choice::<Client>())]
+    pub(crate) clients: Vec<Client>,
+    /// Directory; default: case file name with `-joint`
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Units of the files: mm (mm, N, MPa) or si
+    #[arg(long, value_name = "UNITS", default_value = "mm", value_parser = choice::<Units>())]
+    pub(crate) units: Units,
+    /// Friction coefficient of surfaces that may slip, for programs that take one
+    #[arg(long, value_name = "MU", value_parser = coefficient)]
+    pub(crate) friction: Option<f64>,
+    /// Repeat failed samples
+    #[arg(long)]
+    pub(crate) retry: bool,
+    /// Number of threads, and of samples at a time, at most 1024; default: the limit of a scheduler or container, otherwise
+    /// all cores
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<usize>,
+    /// Device that solves the contacts, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
+    #[arg(long, value_name = "DEVICE", value_parser = choice::<Device>())]
+    pub(crate) device: Option<Device>,
+    /// Print only warnings and errors
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+fn coefficient(text: &str) -> Result<f64, String> {
+    let wrong = || "expected a number above 0, such as 0.2".to_owned();
+    let value: f64 = text.parse().map_err(|_| wrong())?;
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(wrong()) }
+}

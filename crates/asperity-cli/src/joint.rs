@@ -1,0 +1,68 @@
+//! `asperity joint`: the law of a joint for other programs, from samples of its surfaces.
+
+use std::path::{Path, PathBuf};
+
+use asperity::Error;
+use asperity::study::joint::{ClientSettings, Law, samples};
+use asperity::study::parametric::{Folder, Queue, Study, Task};
+
+use crate::report::{Outcome, note, print};
+use crate::{args, place, study};
+use asperity_report::{figures, page};
+
+/// Computes the samples that are left, and writes the law with what is asked for.
+pub(crate) fn joint(arguments: &args::Joint) -> Outcome {
+    place::case(&arguments.case, "joint")?;
+    let study = samples(&arguments.case)?;
+    let study = match arguments.device {
+        Some(device) => study.on(device)?,
+        None => study,
+    };
+    let directory = arguments.out.clone().unwrap_or_else(|| beside(&arguments.case));
+    study.open_devices()?;
+    let folder = Folder::enter(&directory, &study)?;
+    study::compute(&Queue::new(&study, &folder, Task::ALL, arguments.retry)?, arguments.quiet)?;
+    let settings = ClientSettings { units: arguments.units, friction: arguments.friction };
+    let law = write_joint(&study, &folder, &arguments.clients, &settings)?;
+    law.doubts().iter().for_each(|doubt| note(&format!("warning: {doubt}")));
+    if arguments.quiet { Ok(()) } else { print(&(page::joint_in_words(&law) + "\n")) }
+}
+
+/// Writes the table, the page, the figures of a law, and the files for these programs. Returns the law.
+///
+/// # Errors
+/// [`Error::Unsupported`] if no sample is done, or if a program cannot take the law; [`Error::File`].
+pub fn write_joint(
+    study: &Study,
+    folder: &Folder,
+    clients: &[asperity::study::joint::Client],
+    settings: &ClientSettings,
+) -> asperity::Result<Law> {
+    let law = Law::collect(study, folder)?;
+    let path = |name: &str| folder.path().join(name);
+    law.write_csv(&path("joint.csv"))?;
+    let mut names = vec!["joint.csv".to_owned()];
+    for client in clients {
+        for file in client.files(&law, settings)? {
+            asperity::study::io::replace(&path(&file.name), file.text.as_bytes())?;
+            if !names.contains(&file.name) {
+                names.push(file.name);
+            }
+        }
+    }
+    let failed = |error: asperity_report::Error| Error::File {
+        path: path("figures"),
+        source: std::io::Error::other(error.to_string()),
+    };
+    figures::draw_joint(&law, &path("figures"), &figures::FigureOptions::default(), &|| false)
+        .map_err(failed)?;
+    page::write_joint(&law, &names, &law.doubts(), &path("joint.html"))?;
+    Ok(law)
+}
+
+/// The directory beside a case file.
+fn beside(case: &Path) -> PathBuf {
+    let mut name = case.file_stem().unwrap_or_default().to_owned();
+    name.push("-joint");
+    case.with_file_name(name)
+}

@@ -1,0 +1,382 @@
+//! Samples as one law.
+
+use super::quantities::{Found, Kind, QUANTITIES, along};
+use crate::parametric::{Folder, Study};
+use crate::results::Results;
+use asperity_base::error::{Error, Result};
+use asperity_base::units::{Dimension, Metre, Pascal, format, format_number_digits};
+use asperity_contact::conductance::{ConductanceRecord, Joint};
+use asperity_contact::flow::{FlowRecord, Leakage};
+use asperity_contact::joint::{JointLaw, JointRecord};
+use asperity_contact::motion::SweepRecord;
+use asperity_surface::Axis;
+
+/// Quantiles of the band.
+const QUANTILES: [f64; 2] = [0.16, 0.84];
+
+/// Largest relative difference of the mean pressure of samples at one point.
+const SAME_PRESSURE: f64 = 1e-6;
+
+/// Ratio of the least computed pressure to that at which its continuation becomes straight.
+const TAIL: f64 = 100.0;
+
+/// Points of the continuation, as ratios to the least computed pressure.
+const TAIL_POINTS: [f64; 6] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5];
+
+/// Roll-off wavelength over the correlation length, of self-affine surfaces: 0.28 to 0.34 for Hurst exponents of 0.5 to 1.
+const ROLLOFF: f64 = 3.1;
+
+/// Roll-off wavelengths along a sample from which on it is a law.
+const ENOUGH: f64 = 8.0;
+
+/// Relative error of a slope between points that passes as rounding.
+const SLACK: f64 = 1e-3;
+
+/// A value over the samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Band {
+    /// Quantile 0.16.
+    pub low: f64,
+    /// Median.
+    pub median: f64,
+    /// Quantile 0.84.
+    pub high: f64,
+}
+
+/// A quantity over the pressures of the law.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// What it is.
+    pub kind: Kind,
+    /// Its band at each pressure; `None` where fewer than half of the samples have it, such as a flow factor beyond the
+    /// closing of the gap.
+    pub bands: Vec<Option<Band>>,
+}
+
+/// The median of the samples, or an edge of their band.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Edge {
+    /// The softer edge, which conducts less: the quantile 0.16 of gap, stiffness and conductance.
+    Low,
+    /// The median.
+    Median,
+    /// The stiffer edge, which conducts more.
+    High,
+}
+
+/// What the law was checked for.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Checks {
+    /// Steps of all samples between neighbouring pressures.
+    pub steps: usize,
+    /// Steps whose secant stiffness lies between the stiffnesses at both ends.
+    pub bracketed: usize,
+    /// Largest relative difference of a conductance from that by Barber's identity; `None` where the identity does not hold,
+    /// as with a hardness.
+    pub barber: Option<f64>,
+}
+
+/// The law of a joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Law {
+    /// Title of the case.
+    pub title: String,
+    /// Number of samples.
+    pub samples: usize,
+    /// Number of cases without results.
+    pub missing: usize,
+    /// Mean pressures, rising.
+    pub pressures: Vec<Pascal>,
+    /// The quantities that are known.
+    pub quantities: Vec<Quantity>,
+    /// Gap g₀ from which the closure is counted.
+    pub datum: Metre,
+    /// Rms height of the sum of both surfaces over the samples.
+    pub rms_height: Band,
+    /// Rms slope of the sum of both surfaces.
+    pub rms_slope: Band,
+    /// Composite modulus E*.
+    pub modulus: Pascal,
+    /// Rows of the theories at each pressure, of the sample in the middle by its rms height.
+    pub theories: Vec<JointRecord>,
+    /// Side of a square with the area of a sample.
+    pub side: Metre,
+    /// Whether gas conducts in the gap.
+    pub has_gas: bool,
+    /// What was checked.
+    pub checks: Checks,
+}
+
+/// The results of a sample, at rising pressures.
+struct Sample {
+    points: Vec<SweepRecord>,
+    joints: Vec<JointRecord>,
+    conductances: Vec<ConductanceRecord>,
+    flows: Vec<FlowRecord>,
+}
+
+impl Sample {
+    fn read(results: &Results) -> Result<Self> {
+        let mut points = results.sweep()?;
+        points.sort_by(|a, b| a.mean_pressure.total_cmp(&b.mean_pressure));
+        Ok(Self {
+            points,
+            joints: results.rows::<JointLaw>()?,
+            conductances: results.rows::<Joint>()?,
+            flows: results.rows::<Leakage>()?,
+        })
+    }
+
+    fn found(&self, index: usize) -> Result<Found<'_>> {
+        let point = &self.points[index];
+        let joint = self.joints.iter().find(|row| row.step == Some(point.point));
+        Ok(Found {
+            point,
+            joint: joint.ok_or(Error::Unsupported("a sample without the law of its joint"))?,
+            conductance: self.conductances.iter().find(|row| row.step == Some(point.point)),
+            flow: [Axis::X, Axis::Y].map(|axis| along(&self.flows, axis, point.point)),
+        })
+    }
+}
+
+impl Band {
+    /// The band of some values; `None` without any.
+    pub fn from_values(mut values: Vec<f64>) -> Option<Self> {
+        values.retain(|value| value.is_finite());
+        values.sort_by(f64::total_cmp);
+        let last = values.len().checked_sub(1)?;
+        let quantile = |share: f64| {
+            let place = share * last as f64;
+            let below = (place as usize).min(last);
+            let above = (below + 1).min(last);
+            values[below] + (place - below as f64) * (values[above] - values[below])
+        };
+        Some(Self { low: quantile(QUANTILES[0]), median: quantile(0.5), high: quantile(QUANTILES[1]) })
+    }
+
+    /// Half of its width.
+    pub fn half_width(&self) -> f64 {
+        0.5 * (self.high - self.low)
+    }
+}
+
+impl Law {
+    /// Brings the finished cases of a study of [`samples`](super::samples()) together.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] without two pressures that all samples share; [`Error::File`].
+    pub fn collect(study: &Study, folder: &Folder) -> Result<Self> {
+        let done = (1..=study.len()).filter(|case| folder.is_done(*case));
+        let samples =
+            done.map(|case| Sample::read(&Results::open(&folder.case(case))?)).collect::<Result<Vec<_>>>()?;
+        let missing = study.len() - samples.len();
+        let first = samples.first().ok_or(Error::Unsupported("no sample of the joint is done"))?;
+        let pressures: Vec<Pascal> = first.points.iter().map(|point| point.mean_pressure).collect();
+        let shares = |sample: &Sample| {
+            let pairs = sample.points.iter().zip(&pressures);
+            sample.points.len() == pressures.len()
+                && pairs.clone().all(|(point, p)| (point.mean_pressure / p - 1.0).abs() <= SAME_PRESSURE)
+        };
+        if !samples.iter().all(shares) {
+            return Err(Error::Unsupported("samples of a joint under different mean pressures"));
+        }
+        if pressures.len() < 2 || pressures[0] <= 0.0 || !pressures.is_sorted_by(|a, b| a < b) {
+            return Err(Error::Unsupported(
+                "the law of a joint needs at least two different pressures above 0",
+            ));
+        }
+        let found =
+            |index: usize| samples.iter().map(|sample| sample.found(index)).collect::<Result<Vec<_>>>();
+        let found = (0..pressures.len()).map(found).collect::<Result<Vec<_>>>()?;
+        let mut quantities = Vec::new();
+        for declared in &QUANTITIES {
+            let band = |found: &Vec<Found<'_>>| {
+                let values: Vec<f64> = found.iter().filter_map(declared.value).collect();
+                Band::from_values(values)
+                    .filter(|_| 2 * found.iter().filter_map(declared.value).count() > found.len())
+            };
+            let bands: Vec<Option<Band>> = found.iter().map(band).collect();
+            if bands.iter().any(Option::is_some) {
+                quantities.push(Quantity { kind: declared.kind, bands });
+            }
+        }
+        let of_surfaces = |value: fn(&JointRecord) -> f64| {
+            let values = found[0].iter().map(|found| value(found.joint)).collect();
+            Band::from_values(values).expect("finite moments of a surface")
+        };
+        let (rms_height, rms_slope) = (of_surfaces(|row| row.rms_height), of_surfaces(|row| row.rms_slope));
+        let distance = |n: &usize| (found[0][*n].joint.rms_height - rms_height.median).abs();
+        let middle = (0..samples.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
+        let conducts = first.conductances.first().is_some_and(|row| row.gas_share > 0.0);
+        let mut law = Self {
+            title: study.title().to_owned(),
+            samples: samples.len(),
+            missing,
+            checks: checks(&found),
+            theories: found.iter().map(|found| found[middle].joint.clone()).collect(),
+            modulus: found[0][0].joint.modulus,
+            side: (first.points[0].load / first.points[0].mean_pressure).sqrt(),
+            pressures,
+            quantities,
+            datum: 0.0,
+            rms_height,
+            rms_slope,
+            has_gas: conducts,
+        };
+        let edges = [Edge::Low, Edge::Median, Edge::High];
+        law.datum =
+            edges.map(|edge| law.gap_without_pressure(edge)).into_iter().fold(f64::NEG_INFINITY, f64::max);
+        Ok(law)
+    }
+
+    /// Returns a quantity; `None` if it is unknown.
+    pub fn quantity(&self, kind: Kind) -> Option<&Quantity> {
+        self.quantities.iter().find(|quantity| quantity.kind == kind)
+    }
+
+    /// Returns the values of a quantity at an edge, at each pressure; NaN where it is unknown. `None` of a quantity that the
+    /// law does not have.
+    pub fn values(&self, kind: Kind, edge: Edge) -> Option<Vec<f64>> {
+        let values = |band: &Option<Band>| {
+            let Some(Band { low, median, high }) = *band else { return f64::NAN };
+            match edge {
+                Edge::Low => low,
+                Edge::Median => median,
+                Edge::High => high,
+            }
+        };
+        Some(self.quantity(kind)?.bands.iter().map(values).collect())
+    }
+
+    /// Returns pressure and closure of an edge: from 0 along the continuation to the least computed pressure, and on. The
+    /// softer edge has the larger closure.
+    pub fn closure(&self, edge: Edge) -> Vec<[f64; 2]> {
+        let (least, decay, gap) = self.least(edge);
+        let tail = TAIL_POINTS.map(|part| [part * least, self.datum - (gap - decay * part.ln())]);
+        let gaps = self.gaps(edge);
+        let computed = self.pressures.iter().zip(gaps).map(|(p, gap)| [*p, self.datum - gap]);
+        [[0.0, 0.0]].into_iter().chain(tail).chain(computed).collect()
+    }
+
+    /// Whether pressures and closures of all edges rise from point to point.
+    pub fn rises(&self) -> bool {
+        let rises = |edge: Edge| {
+            self.closure(edge)
+                .windows(2)
+                .all(|points| points[0][0] < points[1][0] && points[0][1] < points[1][1])
+        };
+        [Edge::Low, Edge::Median, Edge::High].into_iter().all(rises)
+    }
+
+    /// Returns reasons not to trust the law.
+    pub fn doubts(&self) -> Vec<String> {
+        let mut doubts = Vec::new();
+        if self.missing > 0 {
+            doubts.push(format!(
+                "{} of {} samples have failed or are not done",
+                self.missing,
+                self.missing + self.samples
+            ));
+        }
+        if self.samples == 1 {
+            doubts.push(
+                "the law is that of one sample, and its scatter is unknown: give `samples = 8` or `patches = [4, 4]` in [joint]".to_owned(),
+            );
+        }
+        let lengths = self.theories.first().and_then(|row| row.correlation_length);
+        let rolloff = ROLLOFF * lengths.unwrap_or(f64::INFINITY);
+        if rolloff > 0.0 && self.side < ENOUGH * rolloff {
+            let about = if rolloff.is_finite() {
+                format!(
+                    "about {} roll-off wavelengths of {}",
+                    format_number_digits(self.side / rolloff, 2),
+                    format(rolloff, Dimension::Length)
+                )
+            } else {
+                "less than a wave of its roughness".to_owned()
+            };
+            doubts.push(format!(
+                "a sample is only {about} long: it is a curve of its own, and no law; take samples of at least {ENOUGH}, or {} samples of this \
+                 length to halve the uncertainty of their median",
+                4 * self.samples
+            ));
+        }
+        if !self.rises() {
+            doubts.push(
+                "the pressure does not rise with the closure everywhere, and no program takes such a law: compute more samples, or fewer loads"
+                    .to_owned(),
+            );
+        }
+        if self.checks.bracketed < self.checks.steps {
+            doubts.push(format!(
+                "in {} of {} steps between loads the secant stiffness lies outside those at both ends: the loads are too far apart or the \
+                 samples too coarse",
+                self.checks.steps - self.checks.bracketed,
+                self.checks.steps
+            ));
+        }
+        doubts
+    }
+
+    /// Length over which the pressure falls by e below the least computed one, of the median.
+    pub fn tail_decay(&self) -> Metre {
+        self.least(Edge::Median).1
+    }
+
+    /// Gaps of an edge: under the same pressure the softer one has the smaller gap.
+    pub(super) fn gaps(&self, edge: Edge) -> Vec<f64> {
+        self.values(Kind::MeanGap, edge).expect("each sample has a gap")
+    }
+
+    /// Least computed pressure, the length over which it falls by e, and the gap there.
+    fn least(&self, edge: Edge) -> (Pascal, Metre, Metre) {
+        let gap = self.gaps(edge)[0];
+        let stiffness = self.values(Kind::Stiffness, Edge::Median).map(|values| values[0]);
+        let between = (self.pressures[1] - self.pressures[0]) / (gap - self.gaps(edge)[1]);
+        let stiffness = stiffness.filter(|stiffness| *stiffness > 0.0).unwrap_or(between);
+        (self.pressures[0], self.pressures[0] / stiffness, gap)
+    }
+
+    fn gap_without_pressure(&self, edge: Edge) -> Metre {
+        let (_, decay, gap) = self.least(edge);
+        gap + decay * (TAIL.ln() + 1.0)
+    }
+}
+
+/// Checks each sample by itself.
+fn checks(found: &[Vec<Found<'_>>]) -> Checks {
+    let mut checks = Checks::default();
+    for pair in found.windows(2) {
+        for (one, next) in pair[0].iter().zip(&pair[1]) {
+            let area = one.point.load / one.point.mean_pressure;
+            let (Some(before), Some(after)) = (one.point.stiffness, next.point.stiffness) else { continue };
+            let secant = area * (next.point.mean_pressure - one.point.mean_pressure)
+                / (one.point.mean_gap - next.point.mean_gap);
+            let (least, most) = (before.min(after), before.max(after));
+            checks.steps += 1;
+            checks.bracketed +=
+                usize::from(secant >= least * (1.0 - SLACK) && secant <= most * (1.0 + SLACK));
+        }
+    }
+    let off = |found: &Found<'_>| {
+        let quantities = &found.conductance?.quantities;
+        Some((quantities.conductance? / quantities.conductance_of_stiffness? - 1.0).abs())
+    };
+    checks.barber = found.iter().flatten().filter_map(off).reduce(f64::max);
+    checks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_band_has_the_quantiles_of_its_values() {
+        let band = Band::from_values(vec![4.0, 1.0, f64::NAN, 3.0, 2.0, 5.0]).unwrap();
+        assert!((band.low - 1.64).abs() < 1e-12 && band.median == 3.0);
+        assert!((band.high - 4.36).abs() < 1e-12 && (band.half_width() - 1.36).abs() < 1e-12);
+        let one = Band::from_values(vec![7.0]).unwrap();
+        assert_eq!((one.low, one.median, one.high), (7.0, 7.0, 7.0));
+        assert_eq!(Band::from_values(vec![f64::NAN]), None);
+    }
+}
