@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::{Case, Expected, relative, study};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
-use crate::with::flow::{Along, Ends, Faces, Flow, Settings, Sides, solve};
+use crate::with::flow::{Along, Ends, Faces, Flow, Settings, Sides, shear_flow, solve};
 
 const HARMONIC: Settings =
     Settings { ends: Ends::Periodic, sides: Sides::Periodic, faces: Faces::Harmonic, along: Along::Both };
@@ -59,6 +59,27 @@ pub(super) const CORRUGATION: Case = Case {
             let [x, y] = both(&through([n, 4], &HARMONIC, gap)?);
             let [linear, _] = both(&through([n, 4], &Settings::default(), gap)?);
             Ok([relative(x, across), relative(y, along), relative(linear, across)])
+        })
+    },
+};
+
+/// The corrugation slides over a smooth surface across its crests: Φ = ḡ − ⟨g⁻²⟩/⟨g⁻³⟩, with ⟨g⁻²⟩ = (1 − a²)^(−3/2).
+pub(super) const SLIDING: Case = Case {
+    name: "flow: sliding corrugation 1 + 0.6 cos",
+    source: "Reynolds: g³ψ′ = ⟨g⁻²⟩/⟨g⁻³⟩ − g",
+    checks: || {
+        let a = 0.6_f64;
+        let carried = 1.0 - (1.0 - a * a) / (1.0 + 0.5 * a * a);
+        let checks = [
+            ("across, linear faces", Expected::Order { order: 1.9..=2.1, finest: 1e-2 }),
+            ("along", Expected::RoundOff(1e-13)),
+        ];
+        study("cells a wave", &[48, 64, 128], checks, |n| {
+            let shape = [n, 4];
+            let grid = Grid::new(shape, shape.map(|n| 1.0 / n as f64))?;
+            let gap = Field::from_shape_fn(shape, |(i, _)| 1.0 + a * (TAU * grid.centre(0, i)).cos());
+            let [across, along] = shear_flow(&gap, &grid, Faces::Linear);
+            Ok([relative(across.carried, carried), along.carried])
         })
     },
 };

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use ndarray::Array2;
+
 use super::{Case, Check, Expected, hold, relative, relative_rms, smooth, study};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
@@ -9,7 +11,10 @@ use crate::material::{Compliances, Material};
 use crate::operator::{Boundary, CoupledOperator, Operators};
 use crate::reference::cattaneo::tangential_modulus;
 use crate::reference::{CattaneoMindlin, HertzSphere, MindlinDeresiewicz};
-use crate::solver::{Control, Friction, FrictionalSolution, Loading, Tangential};
+use crate::solver::{
+    Control, Friction, FrictionalSolution, Loading, Params, Tangential, normal_stiffness,
+    tangential_stiffness,
+};
 use crate::units::Newton;
 
 const MODULUS: f64 = 5.0;
@@ -169,3 +174,30 @@ fn hysteresis() -> Result<Vec<Check>> {
         ])
     })
 }
+
+/// A disc that sticks, pushed along a surface: the ratio of the tangential to the normal stiffness. The cells of its edge err
+/// alike in both.
+pub(super) const STICKING_DISC: Case = Case {
+    name: "tangential stiffness of a disc, ν = 0.3",
+    source: "Mindlin: k_t = 2 (1 − ν)/(2 − ν) k_n, k_n = 2 E* a",
+    checks: || {
+        let checks = [
+            ("ratio to the normal stiffness", Expected::Counted(0.1)),
+            ("normal stiffness", Expected::Counted(1.0)),
+        ];
+        study("cells along the radius", &[8, 16, 32], checks, |n| {
+            let body = Material::elastic(2.0 * MODULUS * (1.0 - 0.09), 0.3)?;
+            let grid = Grid::new([2 * n + 2; 2], [1.0 / n as f64; 2])?;
+            let operators = Operators::new(grid, Compliances::new(&body, &body)?, Boundary::FREE);
+            let mut operator = operators.coupled_on(grid.shape);
+            let from_middle = |axis: usize, i: usize| grid.centre(axis, i) - 0.5 * grid.extent()[axis];
+            let disc =
+                Array2::from_shape_fn(grid.shape, |(i, j)| from_middle(0, i).hypot(from_middle(1, j)) < 1.0);
+            let params = Params::default().with_tolerance(1e-9);
+            let (normal, _) = normal_stiffness(operator.normal(), &disc, &params)?;
+            let (tangential, _) = tangential_stiffness(&mut *operator, &disc, &params)?;
+            let (normal, [along, _]) = normal.zip(tangential).unwrap_or((f64::NAN, [f64::NAN; 2]));
+            Ok([relative(along / normal, 1.4 / 1.7), relative(normal, 2.0 * MODULUS)])
+        })
+    },
+};

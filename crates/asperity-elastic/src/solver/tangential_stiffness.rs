@@ -97,9 +97,10 @@ fn push(
         let [u, v] = response.each_mut();
         operator.apply([Some(&direction[0]), Some(&direction[1]), None], [Some(u), Some(v), None]);
         let step = product / dot(&direction, &response);
-        for n in 0..2 {
-            shear[n].scaled_add(step, &direction[n]);
-            let (residual, response) = (&mut residual[n], &response[n]);
+        for (shear, direction) in shear.iter_mut().zip(&direction) {
+            shear.scaled_add(step, direction);
+        }
+        for (residual, response) in residual.iter_mut().zip(&response) {
             Zip::from(residual).and(response).and(&mask).for_each(|r, u, inside| *r -= step * *u * *inside);
         }
         stats.iterations += 1;

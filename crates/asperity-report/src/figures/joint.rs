@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity_contact::flow::patir_cheng;
+use asperity_contact::flow::{patir_cheng, patir_cheng_shear};
 use asperity_contact::joint::JointRecord;
 use asperity_study::joint::{Band, Edge, Kind, Law, Quantity};
 
@@ -166,7 +166,7 @@ fn flow(law: &Law) -> Option<Curves> {
     let theory =
         ratios.iter().filter(|ratio| **ratio > 0.5).map(|ratio| [*ratio, patir_cheng(*ratio)]).collect();
     pressure.push(Series::new("Patir, Cheng", theory, Mark::Dashed));
-    let shear: Vec<Series> = [
+    let mut shear: Vec<Series> = [
         of(Kind::ShearFlowFactorX, "x", Mark::LineAndPoints),
         of(Kind::ShearFlowFactorY, "y", Mark::DashedAndPoints),
     ]
@@ -175,6 +175,8 @@ fn flow(law: &Law) -> Option<Curves> {
     .collect();
     let mut charts = vec![chart("pressure flow factor", pressure)];
     if !shear.is_empty() {
+        let theory = ratios.iter().map(|ratio| [*ratio, patir_cheng_shear(*ratio)]).collect();
+        shear.push(Series::new("Patir, Cheng", theory, Mark::Dashed));
         charts.push(chart("shear flow factor", shear));
     }
     let charts = Charts { charts, columns: 2, aspect: 0.7 };

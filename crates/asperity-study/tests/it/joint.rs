@@ -141,11 +141,6 @@ fn a_case_that_is_no_joint_is_refused_at_its_key() {
     refused([one, "mean_pressure = \"10 MPa\""], "needs several loads", "mean_pressures");
     refused(["[joint]\n", "[joint]\npatches = [2, 2]\n"], "neither body has a file", "samples = 8");
     refused(["[joint]\n", "[joint]\nsamples = 2\npatches = [2, 2]\n"], "samples are patches", "leave");
-    refused(
-        ["viscosity = 0.08", "viscosity = 0.08\n[friction]\ncoefficient = 0.2"],
-        "has no [friction]",
-        "stick",
-    );
     let smooth = CASE.replace(
         "generate = \"self-affine\"",
         "form = \"sinusoid\", amplitude = \"20 nm\", wavelength = \"8 um\"",

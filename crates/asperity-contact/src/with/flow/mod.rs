@@ -39,7 +39,7 @@ mod shear;
 mod table;
 mod views;
 
-pub use comparisons::{effective_medium, patir_cheng, single_constriction};
+pub use comparisons::{effective_medium, patir_cheng, patir_cheng_shear, single_constriction};
 pub use doubts::doubts;
 pub use faces::Faces;
 pub use fluid::Fluid;

@@ -54,12 +54,11 @@ pub fn shear_flow(gap: &Field, grid: &Grid, faces: Faces) -> [ShearFlow; 2] {
     let mut potential = vec![[0.0; 2]; gaps.len()];
     for _ in 0..ROUNDS {
         let mut right = vec![[0.0; 2]; gaps.len()];
-        for direction in 0..2 {
+        for (direction, width) in width.into_iter().enumerate() {
             for (cell, transmissibility) in network.faces[direction].iter().enumerate() {
                 let (before, _) = network.before(cell, direction);
                 for n in 0..2 {
-                    let driven =
-                        if n == direction { face_gap(direction, cell) * width[direction] } else { 0.0 };
+                    let driven = if n == direction { face_gap(direction, cell) * width } else { 0.0 };
                     let through = transmissibility * (potential[before][n] - potential[cell][n]) - driven;
                     right[cell][n] += through;
                     right[before][n] -= through;
