@@ -34,6 +34,11 @@ class Observed:
         return by_word(self._found("flow"), "along")
 
     @property
+    def joints(self) -> Table:
+        """A record for each contact whose law of a joint was asked for, with the columns of `joint.csv`, else empty."""
+        return records(self._found("joint"), [])
+
+    @property
     def fatigue(self) -> dict[str, Table]:
         """A record for each pass of the ``"lower"`` and of the ``"upper"`` body whose fatigue was asked for: a table each.
 

@@ -17,7 +17,7 @@ TABLES = {
     "Friction": "friction", "Stage": "history", "Plasticity": "plasticity", "Subsurface": "subsurface",
     "Conductance": "conductance", "Flow": "flow", "Adhesion": "adhesion",
     "Acceleration": "acceleration", "Temperature": "temperature", "Wear": "lower.wear", "Film": "lower.film",
-    "Viscoelastic": "lower.viscoelastic", "Steady": "steady", "Lubrication": "lubrication", "Fatigue": "fatigue", "FatigueLimits": "lower.fatigue",
+    "Viscoelastic": "lower.viscoelastic", "Steady": "steady", "Lubrication": "lubrication", "Fatigue": "fatigue", "Joint": "joint", "FatigueLimits": "lower.fatigue",
 }  # fmt: skip
 
 

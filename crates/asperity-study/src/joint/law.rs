@@ -46,7 +46,7 @@ pub struct Band {
 /// A quantity over the pressures of the law.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
     /// Its band at each pressure; `None` where fewer than half of the samples have it, such as a flow factor beyond the
     /// closing of the gap.
@@ -64,7 +64,7 @@ pub enum Edge {
     High,
 }
 
-/// What the law was checked for.
+/// The checks of a law.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Checks {
     /// Steps of all samples between neighbouring pressures.
@@ -103,7 +103,7 @@ pub struct Law {
     pub side: Metre,
     /// Whether gas conducts in the gap.
     pub has_gas: bool,
-    /// What was checked.
+    /// Its checks.
     pub checks: Checks,
 }
 

@@ -1,4 +1,4 @@
-//! What sliding surfaces carry through their gap, and how the fluid drags them: factors of mean equations of lubrication.
+//! Sliding surfaces carry fluid through their gap, and shear it: factors of mean equations of lubrication.
 //!
 //! A rough surface slides with U over a smooth one, without a mean gradient of pressure. In its frame the gap stands still,
 //! and the pressure is p = 6ηU ψ with

@@ -58,7 +58,7 @@ pub enum Units {
 
 choice!(Units: "mm" => Millimetre, "si" => Metre);
 
-/// What a program needs besides the law.
+/// Units and friction of the files for a program.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ClientSettings {
     /// Units of the files.
