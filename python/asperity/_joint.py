@@ -61,7 +61,7 @@ class Joint(Comparable):
         (self.sentence, self.warnings, coefficients, self.samples, self.datum), self.pressure, closure, bands = found
         self.directory = directory
         self.closure = (closure[0], closure[1])
-        self.bands = {name: Band(*values, unit) for name, unit, values in bands}
+        self.bands = {name: Band(median, low, high, unit) for name, unit, (median, low, high) in bands}
         self.coefficients = json.loads(coefficients)
 
     def __repr__(self) -> str:

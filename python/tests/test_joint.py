@@ -50,7 +50,7 @@ def test_a_joint_is_that_of_the_command(case, tmp_path):
     assert json.loads((law.directory / "joint-coefficients.json").read_text()) == law.coefficients
     assert law.sentence.startswith("At 40 MPa the joint is closed by") and "4 samples" in law.sentence
     assert law.sentence in repr(law)
-    table = np.genfromtxt((law.directory / "joint.csv").open(), delimiter=",", names=True)
+    table = np.genfromtxt(law.directory / "joint.csv", encoding="utf-8", delimiter=",", names=True)
     np.testing.assert_allclose(table["mean_pressure_Pa"], law.pressure)
     pressure, closure = law.closure
     assert pressure[0] == closure[0] == 0.0 and np.all(np.diff(pressure) > 0) and np.all(np.diff(closure) > 0)
