@@ -27,8 +27,7 @@ columns! {
         pub mean_gap: Metre,
         /// Area of the cells in contact: with p > 0, or with p > −σ(0) where the bodies attract each other.
         pub contact_area: SquareMetre,
-        /// Area of contact, corrected for the cells at the edges of spots, which bear on a part of their area
-        /// ([`corrected_area`](crate::motion::corrected_area)).
+        /// Area of contact, corrected for the cells at the edges of spots, which bear on a part of their area.
         pub contact_area_corrected: SquareMetre,
         /// Area of contact over the area of the whole grid, 0 to 1.
         pub contact_fraction: f64,
