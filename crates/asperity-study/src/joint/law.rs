@@ -29,6 +29,9 @@ const ROLLOFF: f64 = 3.1;
 /// Roll-off wavelengths along a sample from which on it is a law.
 const ENOUGH: f64 = 8.0;
 
+/// Share of itself by which the estimate of the roll-off wavelength may be too long: it is, where the band of wavelengths is narrow.
+const ROLLOFF_UNCERTAINTY: f64 = 0.15;
+
 /// Relative error of a slope between points that passes as rounding.
 const SLACK: f64 = 1e-3;
 
@@ -285,7 +288,7 @@ impl Law {
         }
         let lengths = self.theories.first().and_then(|row| row.correlation_length);
         let rolloff = ROLLOFF * lengths.unwrap_or(f64::INFINITY);
-        if rolloff > 0.0 && self.side < ENOUGH * rolloff {
+        if rolloff > 0.0 && self.side < (1.0 - ROLLOFF_UNCERTAINTY) * ENOUGH * rolloff {
             let about = if rolloff.is_finite() {
                 format!(
                     "about {} roll-off wavelengths of {}",
