@@ -2,9 +2,10 @@
 
 use ndarray::Array2;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::grid::Field;
 use crate::operator::Operator;
-use crate::solver::uniform::Gradients;
+use crate::solver::uniform::{CellPreconditioner, Gradients};
 use crate::solver::{Params, Stats};
 use crate::units::NewtonPerMetre;
 
@@ -24,7 +25,7 @@ use crate::units::NewtonPerMetre;
 /// Sneddon, Int. J. Eng. Sci. 3, 47 (1965): K = 2 E* a for any axisymmetric contact of radius a.
 ///
 /// # Errors
-/// [`Error::NotConverged`].
+/// [`Error::NotConverged`](crate::Error::NotConverged).
 ///
 /// # Panics
 /// If `elastic` has another shape than the operator's grid.
@@ -38,27 +39,11 @@ pub fn normal_stiffness(
     if operator.leaves_mean_free() && elastic.iter().all(|is_elastic| *is_elastic) {
         return Ok((None, Stats::default()));
     }
-    // From 0: Σ p' lacks what the steps to come will add, and none of them takes from it.
-    let mut gradients = Gradients::new(operator, elastic);
-    let mut added = [f64::INFINITY; LAST_STEPS];
-    while gradients.max_residual() != 0.0
-        && added.iter().sum::<f64>() > ACCURACY * params.tolerance * gradients.traction.sum()
-    {
-        let iterations = gradients.stats.iterations;
-        if iterations >= params.max_convolutions {
-            let residual = added.iter().sum::<f64>() / gradients.traction.sum();
-            return Err(Error::NotConverged { iterations, residual, tolerance: ACCURACY * params.tolerance });
-        }
-        added.rotate_left(1);
-        added[LAST_STEPS - 1] = gradients.step(operator)?;
-    }
+    let preconditioner = CellPreconditioner::alike(operator, elastic);
+    let mut gradients = Gradients::preconditioned_by(&grid, elastic, preconditioner, 0);
+    gradients.converge(&mut |[q]: &[Field; 1], [u]: &mut [Field; 1]| operator.apply(q, u), params)?;
     Ok((Some(grid.cell_area() * gradients.sum()), gradients.stats))
 }
-
-/// Number of last steps of conjugate gradients whose total contribution to the stiffness must be small.
-const LAST_STEPS: usize = 2;
-/// Fraction of the tolerance that the last steps may contribute to the stiffness.
-const ACCURACY: f64 = 0.1;
 
 #[cfg(test)]
 mod tests {

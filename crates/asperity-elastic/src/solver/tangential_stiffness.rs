@@ -1,11 +1,11 @@
 //! Tangential stiffness of a contact: a flat punch that is glued to the elastic cells and pushed along them.
 
-use ndarray::{Array2, Zip};
+use ndarray::Array2;
 
-use crate::error::{Error, Result};
-use crate::grid::{Field, SingleField};
+use crate::error::Result;
+use crate::grid::Field;
 use crate::operator::CoupledOperator;
-use crate::solver::uniform::CellPreconditioner;
+use crate::solver::uniform::{CellPreconditioner, Gradients};
 use crate::solver::{Params, Stats};
 use crate::units::NewtonPerMetre;
 
@@ -24,7 +24,7 @@ use crate::units::NewtonPerMetre;
 /// 2 (1 − ν)/(2 − ν) of the normal stiffness.
 ///
 /// # Errors
-/// [`Error::NotConverged`].
+/// [`Error::NotConverged`](crate::Error::NotConverged).
 ///
 /// # Panics
 /// If `elastic` has another shape than the operator's grid.
@@ -42,74 +42,17 @@ pub fn tangential_stiffness(
     let mut preconditioner = CellPreconditioner::alike(operator.normal(), elastic);
     let mut stiffness = [0.0; 2];
     for (axis, stiffness) in stiffness.iter_mut().enumerate() {
-        let (sum, of_axis) = push(operator, &mut preconditioner, elastic, axis, params)?;
-        *stiffness = grid.cell_area() * sum;
-        stats.iterations += of_axis.iterations;
-        stats.convolutions += of_axis.convolutions;
+        let mut gradients = Gradients::preconditioned_by(&grid, elastic, preconditioner, axis);
+        let mut respond = |[x, y]: &[Field; 2], [u, v]: &mut [Field; 2]| {
+            operator.apply([Some(x), Some(y), None], [Some(u), Some(v), None]);
+        };
+        gradients.converge(&mut respond, params)?;
+        *stiffness = grid.cell_area() * gradients.sum();
+        stats.iterations += gradients.stats.iterations;
+        stats.convolutions += gradients.stats.convolutions;
+        preconditioner = gradients.preconditioner;
     }
     Ok((Some(stiffness), stats))
-}
-
-/// Convolutions of an application of the tangential operator: two tractions, two displacements.
-const CONVOLUTIONS: f64 = 2.0;
-/// Part of the tolerance to which the sum converges, and the number of last steps that may not change it by more.
-const ACCURACY: f64 = 0.1;
-const LAST_STEPS: usize = 2;
-
-/// Solves for the shear that displaces the cells by 1 along an axis, by preconditioned conjugate gradients. Returns its sum
-/// along this axis.
-fn push(
-    operator: &mut dyn CoupledOperator,
-    preconditioner: &mut CellPreconditioner,
-    elastic: &Array2<bool>,
-    axis: usize,
-    params: &Params,
-) -> Result<(f64, Stats)> {
-    let grid = *operator.grid();
-    let zeros = || [grid.zeros(), grid.zeros()];
-    let mask = elastic.mapv(|is_elastic| f64::from(u8::from(is_elastic)));
-    let (mut shear, mut direction, mut response) = (zeros(), zeros(), zeros());
-    let mut residual = zeros();
-    residual[axis].assign(&mask);
-    let mut single = SingleField::zeros(grid.shape);
-    let mut preconditioned = [SingleField::zeros(grid.shape), SingleField::zeros(grid.shape)];
-    let dot = |a: &[Field; 2], b: &[Field; 2]| (&a[0] * &b[0]).sum() + (&a[1] * &b[1]).sum();
-    let (mut before, mut added) = (f64::INFINITY, [f64::INFINITY; LAST_STEPS]);
-    let mut stats = Stats::default();
-    while residual.iter().flatten().any(|r| *r != 0.0)
-        && added.iter().sum::<f64>() > ACCURACY * params.tolerance * shear[axis].sum()
-    {
-        if stats.iterations >= params.max_convolutions {
-            let residual = added.iter().sum::<f64>() / shear[axis].sum();
-            let Stats { iterations, .. } = stats;
-            return Err(Error::NotConverged { iterations, residual, tolerance: ACCURACY * params.tolerance });
-        }
-        let mut product = 0.0;
-        for (r, z) in residual.iter().zip(&mut preconditioned) {
-            preconditioner.apply(r, &mut single, z);
-            product += Zip::from(r).and(&*z).fold(0.0, |sum, r, z| sum + r * f64::from(*z));
-        }
-        let beta = product / before;
-        before = product;
-        for (d, z) in direction.iter_mut().zip(&preconditioned) {
-            d.zip_mut_with(z, |d, z| *d = f64::from(*z) + beta * *d);
-        }
-        let [u, v] = response.each_mut();
-        operator.apply([Some(&direction[0]), Some(&direction[1]), None], [Some(u), Some(v), None]);
-        let step = product / dot(&direction, &response);
-        for (shear, direction) in shear.iter_mut().zip(&direction) {
-            shear.scaled_add(step, direction);
-        }
-        for (residual, response) in residual.iter_mut().zip(&response) {
-            Zip::from(residual).and(response).and(&mask).for_each(|r, u, inside| *r -= step * *u * *inside);
-        }
-        stats.iterations += 1;
-        stats.convolutions += CONVOLUTIONS;
-        added.rotate_left(1);
-        added[LAST_STEPS - 1] = step * product;
-    }
-    // 2 Σ q·e − qᵀ C q: an error of the second order in the residual.
-    Ok((shear[axis].sum() + dot(&shear, &residual), stats))
 }
 
 #[cfg(test)]

@@ -63,12 +63,13 @@ pub fn displace_uniformly(
         return Err(Error::Unsupported("a uniform traction on all of a period displaces nothing"));
     }
     let preconditioner = CellPreconditioner::new(operator, cells, &own);
-    let mut gradients = Gradients::preconditioned_by(&grid, cells, preconditioner);
+    let mut gradients = Gradients::preconditioned_by(&grid, cells, preconditioner, 0);
     let mut compliant = Compliant::new(&mut *operator, own)?;
     // A traction that is uniform over a period displaces it by D alone: no wave shows how large it is.
     let uniform = (compliant.boundary().leaves_mean_free() && all && least > 0.0).then(|| grid.zeros() + 1.0);
+    let mut respond = |[q]: &[Field; 1], [u]: &mut [Field; 1]| compliant.apply(q, u);
     if let Some(start) = start.or(uniform.as_ref()) {
-        gradients.begin(&mut compliant, start);
+        gradients.begin(&mut respond, start);
     }
     let mut renewed = f64::INFINITY;
     loop {
@@ -78,9 +79,9 @@ pub fn displace_uniformly(
                 let residual = gradients.max_residual();
                 return Err(Error::NotConverged { iterations, residual, tolerance: params.tolerance });
             }
-            gradients.step(&mut compliant)?;
+            gradients.step(&mut respond)?;
         }
-        gradients.renew(&mut compliant);
+        gradients.renew(&mut respond);
         let residual = gradients.max_residual();
         if residual <= params.tolerance {
             break;
@@ -93,7 +94,7 @@ pub fn displace_uniformly(
         renewed = residual;
     }
     let (sum, residual) = (gradients.sum(), gradients.max_residual());
-    let Gradients { traction, residual: left, stats, .. } = gradients;
+    let Gradients { traction: [traction], residual: [left], stats, .. } = gradients;
     let total = traction.sum();
     let imbalance = if total == 0.0 { 0.0 } else { ((&traction * &left).sum() / total).abs() };
     Ok(UniformDisplacement { traction, sum, residual, imbalance, stats })
@@ -109,106 +110,153 @@ fn on_cells(cells: &Array2<bool>, compliance: &CellValues) -> Field {
     }
 }
 
-/// Conjugate gradients for a unit displacement of some cells.
-pub(super) struct Gradients {
+/// Displacements by components of traction.
+pub(super) type Respond<'a, const N: usize> = dyn FnMut(&[Field; N], &mut [Field; N]) + 'a;
+
+/// Conjugate gradients for a unit displacement of some cells along one of N components.
+pub(super) struct Gradients<const N: usize> {
     /// 1 on the cells, 0 elsewhere.
     mask: Field,
-    preconditioner: CellPreconditioner,
+    pub(super) preconditioner: CellPreconditioner,
+    /// The component of the displacement.
+    component: usize,
     /// The traction so far.
-    pub(super) traction: Field,
-    residual: Field,
-    direction: Field,
-    response: Field,
+    traction: [Field; N],
+    residual: [Field; N],
+    direction: [Field; N],
+    response: [Field; N],
     single: SingleField,
-    preconditioned: SingleField,
+    preconditioned: [SingleField; N],
     product_before: f64,
     /// Cost so far.
     pub(super) stats: Stats,
 }
 
-impl Gradients {
-    /// Starts from 0 on the `cells`.
-    pub(super) fn new(operator: &dyn Operator, cells: &Array2<bool>) -> Self {
-        Self::preconditioned_by(operator.grid(), cells, CellPreconditioner::alike(operator, cells))
-    }
-
-    fn preconditioned_by(grid: &Grid, cells: &Array2<bool>, preconditioner: CellPreconditioner) -> Self {
-        let mask = cells.mapv(|is_cell| f64::from(u8::from(is_cell)));
-        Self {
-            preconditioner,
-            traction: grid.zeros(),
-            residual: mask.clone(),
-            mask,
-            direction: grid.zeros(),
-            response: grid.zeros(),
-            single: SingleField::zeros(grid.shape),
-            preconditioned: SingleField::zeros(grid.shape),
-            product_before: f64::INFINITY,
-            stats: Stats::default(),
-        }
-    }
-
+impl Gradients<1> {
     /// Starts from the multiple of `start` that comes nearest to the answer in the energy.
-    fn begin(&mut self, operator: &mut dyn Operator, start: &Field) {
-        let start = start * &self.mask;
-        operator.apply(&start, &mut self.response);
+    fn begin(&mut self, respond: &mut Respond<'_, 1>, start: &Field) {
+        let start = [start * &self.mask];
+        respond(&start, &mut self.response);
         self.stats.convolutions += 1.0;
-        let factor = start.sum() / (&start * &self.response).sum();
+        let factor = start[0].sum() / dot(&start, &self.response);
         if factor.is_finite() && factor > 0.0 {
-            self.traction = start * factor;
-            let Self { residual, response, mask, .. } = self;
-            Zip::from(residual).and(response).and(mask).for_each(|r, u, inside| *r -= factor * *u * *inside);
+            self.traction = start.map(|start| start * factor);
+            self.subtract(factor);
         }
     }
 
     /// Computes the residual from the traction: the one that the steps have updated has gathered rounding
     /// errors.
-    fn renew(&mut self, operator: &mut dyn Operator) {
-        operator.apply(&self.traction, &mut self.response);
+    fn renew(&mut self, respond: &mut Respond<'_, 1>) {
+        respond(&self.traction, &mut self.response);
         self.stats.convolutions += 1.0;
-        let Self { residual, response, mask, .. } = self;
+        let Self { residual: [residual], response: [response], mask, .. } = self;
         Zip::from(residual).and(response).and(mask).for_each(|r, u, inside| *r = (1.0 - *u) * *inside);
         self.product_before = f64::INFINITY;
     }
+}
 
-    /// One step; returns what it adds to the sum of the traction.
-    pub(super) fn step(&mut self, operator: &mut dyn Operator) -> Result<f64> {
-        let Self {
+impl<const N: usize> Gradients<N> {
+    /// Starts from 0 on the `cells`.
+    pub(super) fn preconditioned_by(
+        grid: &Grid,
+        cells: &Array2<bool>,
+        preconditioner: CellPreconditioner,
+        component: usize,
+    ) -> Self {
+        let mask = cells.mapv(|is_cell| f64::from(u8::from(is_cell)));
+        let zeros = || std::array::from_fn(|_| grid.zeros());
+        let mut residual: [Field; N] = zeros();
+        residual[component].assign(&mask);
+        Self {
             mask,
             preconditioner,
-            traction,
+            component,
+            traction: zeros(),
             residual,
-            direction,
-            response,
-            single,
-            preconditioned,
-            ..
-        } = self;
-        preconditioner.apply(residual, single, preconditioned);
-        let product =
-            Zip::from(&*residual).and(&*preconditioned).fold(0.0, |sum, r, z| sum + r * f64::from(*z));
+            direction: zeros(),
+            response: zeros(),
+            single: SingleField::zeros(grid.shape),
+            preconditioned: std::array::from_fn(|_| SingleField::zeros(grid.shape)),
+            product_before: f64::INFINITY,
+            stats: Stats::default(),
+        }
+    }
+
+    /// One step; returns what it adds to the sum of the traction.
+    pub(super) fn step(&mut self, respond: &mut Respond<'_, N>) -> Result<f64> {
+        let mut product = 0.0;
+        for (r, z) in self.residual.iter().zip(&mut self.preconditioned) {
+            self.preconditioner.apply(r, &mut self.single, z);
+            product += Zip::from(r).and(&*z).fold(0.0, |sum, r, z| sum + r * f64::from(*z));
+        }
         let beta = product / self.product_before;
         self.product_before = product;
-        direction.zip_mut_with(preconditioned, |d, z| *d = f64::from(*z) + beta * *d);
-        operator.apply(direction, response);
-        let step = product / (&*direction * &*response).sum();
+        for (direction, z) in self.direction.iter_mut().zip(&self.preconditioned) {
+            direction.zip_mut_with(z, |d, z| *d = f64::from(*z) + beta * *d);
+        }
+        respond(&self.direction, &mut self.response);
+        let step = product / dot(&self.direction, &self.response);
         check("stiffness", step, step.is_finite(), "a number in double precision")?;
-        traction.scaled_add(step, direction);
-        Zip::from(residual).and(response).and(mask).for_each(|r, u, inside| *r -= step * *u * *inside);
+        for (traction, direction) in self.traction.iter_mut().zip(&self.direction) {
+            traction.scaled_add(step, direction);
+        }
+        self.subtract(step);
         self.stats.iterations += 1;
-        self.stats.convolutions += 1.0;
+        self.stats.convolutions += N as f64;
         Ok(step * product)
+    }
+
+    /// Takes a multiple of the response off the residual.
+    fn subtract(&mut self, step: f64) {
+        for (residual, response) in self.residual.iter_mut().zip(&self.response) {
+            let cells = Zip::from(residual).and(response).and(&self.mask);
+            cells.for_each(|r, u, inside| *r -= step * *u * *inside);
+        }
+    }
+
+    /// Steps until the sum of the traction is known to a tenth of the tolerance.
+    pub(super) fn converge(&mut self, respond: &mut Respond<'_, N>, params: &Params) -> Result<()> {
+        // From 0: the sum lacks what the steps to come will add, and none of them takes from it.
+        let tolerance = ACCURACY * params.tolerance;
+        let mut added = [f64::INFINITY; LAST_STEPS];
+        while self.max_residual() != 0.0
+            && added.iter().sum::<f64>() > tolerance * self.traction[self.component].sum()
+        {
+            let iterations = self.stats.iterations;
+            if iterations >= params.max_convolutions {
+                let residual = added.iter().sum::<f64>() / self.traction[self.component].sum();
+                return Err(Error::NotConverged { iterations, residual, tolerance });
+            }
+            added.rotate_left(1);
+            added[LAST_STEPS - 1] = self.step(respond)?;
+        }
+        Ok(())
     }
 
     /// Largest residual.
     pub(super) fn max_residual(&self) -> f64 {
-        self.residual.iter().fold(0.0, |most, r| most.max(r.abs()))
+        self.residual.iter().flatten().fold(0.0, |most, r| most.max(r.abs()))
     }
 
     /// 2 Σ q − qᵀC q, the sum of the traction with an error of the second order in the residual.
     pub(super) fn sum(&self) -> f64 {
-        Zip::from(&self.traction).and(&self.residual).fold(0.0, |sum, q, r| sum + q * (1.0 + r))
+        let components = self.traction.iter().zip(&self.residual).enumerate();
+        let of_component = |(component, (traction, residual))| {
+            let one = f64::from(u8::from(component == self.component));
+            Zip::from(traction).and(residual).fold(0.0, |sum, q, r| sum + q * (one + r))
+        };
+        components.map(of_component).sum()
     }
+}
+
+/// Number of last steps of conjugate gradients whose total contribution to the sum must be small.
+const LAST_STEPS: usize = 2;
+/// Fraction of the tolerance that the last steps may contribute to the sum.
+const ACCURACY: f64 = 0.1;
+
+fn dot<const N: usize>(a: &[Field; N], b: &[Field; N]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a * b).sum()).sum()
 }
 
 /// The preconditioner: that of a contact on the cells which the bodies displace, and their own compliance on
