@@ -29,64 +29,21 @@ pub fn persson_area_fraction(mean_pressure: Pascal, modulus: Pascal, rms_slope: 
 /// (2007).
 pub const PERSSON_DECAY: f64 = 0.4;
 
-/// Spectral moments of an isotropic random gap, along a profile.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SpectralMoments {
-    /// m₀, the mean square of the heights about their mean, m².
-    pub height: f64,
-    /// m₂, the mean square of the slopes of a profile: half of that of |∇h|.
-    pub slope: f64,
-    /// m₄, the mean square of the curvatures of a profile, 1/m².
-    pub curvature: f64,
-}
-
-impl SpectralMoments {
-    /// Nayak's parameter α = m₀ m₄/m₂², at least 1.5 of an isotropic surface: how broad its spectrum is.
-    pub fn nayak(&self) -> f64 {
-        self.height * self.curvature / (self.slope * self.slope)
-    }
-}
-
-/// The theory of Greenwood and Williamson: independent spherical peaks of one radius, whose heights are normal.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GreenwoodWilliamson {
-    /// Peaks on an area, 1/m².
-    pub density: f64,
-    /// Radius of the peaks.
-    pub radius: Metre,
-    /// Standard deviation σ_s of their heights.
-    pub deviation: Metre,
-    /// Height z̄ of their mean above the mean plane of the surface.
-    pub height: Metre,
-}
-
-impl GreenwoodWilliamson {
-    /// The peaks of an isotropic Gaussian gap. `None` of one whose spectrum has no peaks in this sense, α ≤ 0.8968.
-    ///
-    /// Nayak, J. Lubr. Technol. 93, 398 (1971); McCool, Wear 107, 37 (1986).
-    pub fn from_moments(moments: &SpectralMoments) -> Option<Self> {
-        let SpectralMoments { height, slope, curvature } = *moments;
-        let alpha = moments.nayak();
-        let this = Self {
-            density: curvature / (6.0 * PI * 3f64.sqrt() * slope),
-            radius: 0.375 * (PI / curvature).sqrt(),
-            deviation: (height * (1.0 - 0.8968 / alpha)).sqrt(),
-            height: 4.0 * (height / (PI * alpha)).sqrt(),
-        };
-        [this.density, this.radius, this.deviation]
-            .iter()
-            .all(|value| *value > 0.0 && value.is_finite())
-            .then_some(this)
-    }
-
-    /// Mean pressure at a mean gap between the planes of the surfaces: (4/3) η E* √R σ_s^(3/2) F((g − z̄)/σ_s), with
-    /// F(H) = ∫ (s − H)^(3/2) φ(s) ds over s > H. Greenwood & Williamson, Proc. R. Soc. Lond. A 295, 300 (1966).
-    pub fn pressure(&self, modulus: Pascal, gap: Metre) -> Pascal {
-        let Self { density, radius, deviation, height } = *self;
-        let distance = (gap - height) / deviation;
-        let overlap = peaks_beyond(distance, 1.5);
-        4.0 / 3.0 * density * modulus * radius.sqrt() * deviation.powf(1.5) * overlap
-    }
+/// Mean pressure by Greenwood and Williamson: independent spherical peaks, `density` η on an area, of one `radius` R, with
+/// normal heights of the standard `deviation` σ_s, against a plane at a `distance` d above their mean height:
+///
+/// p = (4/3) η E* √R σ_s^(3/2) F(d/σ_s) with F(H) = ∫ (s − H)^(3/2) φ(s) ds over s > H
+///
+/// Greenwood & Williamson, Proc. R. Soc. Lond. A 295, 300 (1966).
+pub fn greenwood_williamson_pressure(
+    density: f64,
+    radius: Metre,
+    deviation: Metre,
+    modulus: Pascal,
+    distance: Metre,
+) -> Pascal {
+    let overlap = peaks_beyond(distance / deviation, 1.5);
+    4.0 / 3.0 * density * modulus * radius.sqrt() * deviation.powf(1.5) * overlap
 }
 
 /// Returns F_n(H) = ∫ (s − H)ⁿ φ(s) ds over s > H, with the normal density φ: peaks that reach beyond a distance of H
@@ -141,18 +98,6 @@ mod tests {
             assert_relative_eq!(peaks_beyond(h, 1.0), density - h * share, max_relative = 1e-8);
         }
         assert_relative_eq!(peaks_beyond(0.0, 2.5), 0.616_634_0, max_relative = 1e-5);
-    }
-
-    #[test]
-    fn greenwood_and_williamson_have_peaks_above_the_mean_plane() {
-        let moments = SpectralMoments { height: 1e-14, slope: 4.5e-4, curvature: 5e7 };
-        assert_relative_eq!(moments.nayak(), 2.469_135_8, max_relative = 1e-6);
-        let theory = GreenwoodWilliamson::from_moments(&moments).unwrap();
-        let [one, next] = [2.0, 2.1].map(|gap| theory.pressure(115e9, gap * 1e-7));
-        assert!(one > 1e5 && one < 1e8 && next < one, "{one:e} {next:e}");
-        // Twice the modulus bears twice as much.
-        assert_relative_eq!(theory.pressure(230e9, 2e-7), 2.0 * one, max_relative = 1e-12);
-        assert_eq!(GreenwoodWilliamson::from_moments(&SpectralMoments { curvature: 1e6, ..moments }), None);
     }
 
     #[test]

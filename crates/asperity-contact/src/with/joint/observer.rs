@@ -6,7 +6,7 @@ use super::{GapRoughness, JointRecord};
 use crate::error::Result;
 use crate::motion::{ObservedContact, corrected_area};
 use crate::operator::{CoupledOperator, Operators};
-use crate::reference::rough::{GreenwoodWilliamson, PERSSON_DECAY, bgt_area_fraction, persson_area_fraction};
+use crate::reference::rough::{PERSSON_DECAY, bgt_area_fraction, persson_area_fraction};
 use crate::solver::{Bounds, Params, tangential_stiffness};
 use crate::units::Pascal;
 use crate::with::{Given, NamedField, Observer, Place};
@@ -18,7 +18,6 @@ pub struct JointObserver {
     bounds: Bounds,
     modulus: Pascal,
     roughness: GapRoughness,
-    peaks: Option<GreenwoodWilliamson>,
     params: Params,
 }
 
@@ -27,7 +26,6 @@ impl JointObserver {
         let Given { pair, surroundings, params } = given;
         let grid = pair.lower_grid();
         let position = pair.at_rest();
-        let roughness = GapRoughness::new(&grid, &pair.initial_gap(&position));
         let operator = pair.response().compliances().map(|_| {
             let operators = Operators::new(grid, pair.response().clone(), surroundings.boundary);
             Mutex::new(operators.coupled_on(grid.shape))
@@ -36,8 +34,7 @@ impl JointObserver {
             operator,
             bounds: pair.bounds(&position),
             modulus: pair.modulus(),
-            roughness,
-            peaks: roughness.peaks(),
+            roughness: GapRoughness::new(&grid, &pair.initial_gap(&position))?,
             params: *params,
         })
     }
@@ -85,7 +82,7 @@ impl Observer for JointObserver {
             persson_fraction: of_rough(persson_area_fraction(mean_pressure, self.modulus, slope)),
             bgt_fraction: of_rough(bgt_area_fraction(mean_pressure, self.modulus, slope)),
             persson_stiffness: of_rough(load / (PERSSON_DECAY * rough)),
-            greenwood_williamson_pressure: self.peaks.map(|peaks| peaks.pressure(self.modulus, mean_gap)),
+            greenwood_williamson_pressure: self.roughness.pressure(self.modulus, mean_gap),
             convolutions,
         };
         Ok((vec![record], Vec::new()))

@@ -53,6 +53,13 @@ columns! {
     }
 }
 
+impl JointRecord {
+    /// Normal stiffness of an area by Persson's exponential law, Pa/m.
+    pub fn persson_stiffness_of_area(&self) -> Option<f64> {
+        self.persson_stiffness.map(|stiffness| stiffness * self.mean_pressure / self.load)
+    }
+}
+
 impl Record for JointRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 }

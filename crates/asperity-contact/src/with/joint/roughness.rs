@@ -1,18 +1,20 @@
 //! The roughness of the gap without load, on which theories are based.
 
+use crate::error::Result;
 use crate::grid::{Field, Grid};
-use crate::reference::rough::{GreenwoodWilliamson, SpectralMoments};
-use crate::units::Metre;
+use crate::reference::rough::greenwood_williamson_pressure;
+use crate::surface::{Axis, Correlation, GreenwoodWilliamson, SpectralMoments, Topography};
+use crate::units::{Metre, Pascal};
 
 /// Moments of the gap of two surfaces that repeat along both axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GapRoughness {
     /// Gap of the mean planes at which the surfaces first touch.
     pub first_touch_gap: Metre,
-    /// Spectral moments along a profile, the means over all directions.
+    /// Spectral moments; m₄ is the mean over all directions, from the Laplacian.
     pub moments: SpectralMoments,
-    /// Shorter of the lags along x and y at which the autocorrelation falls to 0.2; 0 of flat surfaces. Of self-affine
-    /// surfaces it is about a third of the roll-off wavelength.
+    /// Shorter of the lags along x and y at which the autocorrelation falls below 0.2: infinite where it does not fall so
+    /// far, 0 of flat surfaces. Of self-affine surfaces it is about a third of the roll-off wavelength.
     pub correlation_length: Metre,
 }
 
@@ -22,70 +24,68 @@ const UNCORRELATED: f64 = 0.2;
 impl GapRoughness {
     /// Computes the moments of an undeformed `gap` by differences between neighbouring cells.
     ///
-    /// # Panics
-    /// If the gap has another shape than the grid.
-    pub fn new(grid: &Grid, gap: &Field) -> Self {
-        let [nx, ny] = grid.shape;
-        assert_eq!(gap.dim(), (nx, ny), "shape of the gap");
-        let cells = gap.len() as f64;
-        let mean = gap.sum() / cells;
-        let least = gap.iter().copied().fold(f64::INFINITY, f64::min);
-        let (mut height, mut slope, mut curvature) = (0.0, 0.0, 0.0);
-        let [dx, dy] = grid.pitch;
+    /// # Errors
+    /// Those of [`Topography::new`].
+    pub fn new(grid: &Grid, gap: &Field) -> Result<Self> {
+        let topography = Topography::new(*grid, gap.clone())?;
+        let ([nx, ny], [dx, dy]) = (grid.shape, grid.pitch);
+        let (mut slope, mut curvature) = ([0.0; 2], 0.0);
         for ((i, j), here) in gap.indexed_iter() {
             let along_x = [gap[((i + nx - 1) % nx, j)], gap[((i + 1) % nx, j)]];
             let along_y = [gap[(i, (j + ny - 1) % ny)], gap[(i, (j + 1) % ny)]];
             let bend =
                 |[before, after]: [f64; 2], pitch: f64| (before - 2.0 * here + after) / (pitch * pitch);
-            height += (here - mean) * (here - mean);
-            slope += ((along_x[1] - here) / dx).powi(2) + ((along_y[1] - here) / dy).powi(2);
+            slope[0] += ((along_x[1] - here) / dx).powi(2);
+            slope[1] += ((along_y[1] - here) / dy).powi(2);
             curvature += (bend(along_x, dx) + bend(along_y, dy)).powi(2);
         }
-        // ⟨|∇z|²⟩ = 2 m₂ and ⟨(∇²z)²⟩ = (8/3) m₄ of an isotropic surface.
-        let moments = SpectralMoments {
-            height: height / cells,
-            slope: 0.5 * slope / cells,
-            curvature: 0.375 * curvature / cells,
+        let cells = gap.len() as f64;
+        // ⟨(∇²z)²⟩ = (8/3) m₄ of an isotropic surface.
+        let m4 = 0.375 * curvature / cells;
+        let correlation = Correlation::periodic(&topography);
+        let m0 = correlation.variance();
+        let falls = |axis: Axis| {
+            let lags = correlation.along(axis).into_iter();
+            lags.skip(1).find(|(_, value)| *value < UNCORRELATED * m0).map(|(lag, _)| lag)
         };
-        let correlation_length = correlation_length(grid, gap, mean, moments.height);
-        Self { first_touch_gap: mean - least, moments, correlation_length }
+        let lengths = [Axis::X, Axis::Y].into_iter().filter_map(falls);
+        Ok(Self {
+            first_touch_gap: topography.mean() - gap.iter().copied().fold(f64::INFINITY, f64::min),
+            moments: SpectralMoments { m0, m2: slope.map(|square| square / cells), m4: [m4; 2] },
+            correlation_length: if m0 > 0.0 { lengths.fold(f64::INFINITY, f64::min) } else { 0.0 },
+        })
     }
 
     /// Rms height σ.
     pub fn rms_height(&self) -> Metre {
-        self.moments.height.sqrt()
+        self.moments.m0.sqrt()
     }
 
     /// Rms slope, of |∇z|.
     pub fn rms_slope(&self) -> f64 {
-        (2.0 * self.moments.slope).sqrt()
+        (2.0 * self.moments.mean_m2()).sqrt()
     }
 
     /// Nayak's parameter; `None` of flat surfaces.
     pub fn nayak(&self) -> Option<f64> {
-        Some(self.moments.nayak()).filter(|nayak| nayak.is_finite())
+        Some(self.moments.bandwidth()).filter(|nayak| nayak.is_finite())
     }
 
-    /// The peaks in the sense of Greenwood and Williamson.
+    /// The peaks in the sense of Greenwood and Williamson; `None` of flat surfaces, and of a spectrum that has no peaks in
+    /// this sense, α ≤ 0.8968.
     pub fn peaks(&self) -> Option<GreenwoodWilliamson> {
-        GreenwoodWilliamson::from_moments(&self.moments)
+        let peaks = self.moments.greenwood_williamson();
+        let GreenwoodWilliamson { density, radius, height_deviation, .. } = peaks;
+        let are_known =
+            [density, radius, height_deviation].iter().all(|value| *value > 0.0 && value.is_finite());
+        are_known.then_some(peaks)
     }
-}
 
-fn correlation_length(grid: &Grid, gap: &Field, mean: f64, square: f64) -> Metre {
-    let [nx, ny] = grid.shape;
-    let falls = |axis: usize| {
-        let product = |lag: usize| {
-            let other = |i: usize, j: usize| {
-                if axis == 0 { gap[((i + lag) % nx, j)] } else { gap[(i, (j + lag) % ny)] }
-            };
-            gap.indexed_iter().map(|((i, j), here)| (here - mean) * (other(i, j) - mean)).sum::<f64>()
-        };
-        let enough = UNCORRELATED * square * gap.len() as f64;
-        let lags = 1..=grid.shape[axis] / 2;
-        lags.into_iter().find(|lag| product(*lag) < enough).map(|lag| lag as f64 * grid.pitch[axis])
-    };
-    if square > 0.0 { [0, 1].into_iter().filter_map(falls).fold(f64::INFINITY, f64::min) } else { 0.0 }
+    /// Mean pressure by Greenwood and Williamson at a mean `gap` of the surfaces; `None` without [`Self::peaks`].
+    pub fn pressure(&self, modulus: Pascal, gap: Metre) -> Option<Pascal> {
+        let GreenwoodWilliamson { density, radius, height_deviation, mean_height } = self.peaks()?;
+        Some(greenwood_williamson_pressure(density, radius, height_deviation, modulus, gap - mean_height))
+    }
 }
 
 #[cfg(test)]
@@ -104,15 +104,28 @@ mod tests {
         let gap = Field::from_shape_fn(grid.shape, |(i, j)| {
             5e-7 - amplitude * ((q * i as f64 * 1e-6).cos() + (q * j as f64 * 1.5e-6).cos())
         });
-        let found = GapRoughness::new(&grid, &gap);
+        let found = GapRoughness::new(&grid, &gap).unwrap();
         let square = amplitude * amplitude;
         assert_relative_eq!(found.first_touch_gap, 2.0 * amplitude, max_relative = 1e-12);
-        assert_relative_eq!(found.moments.height, square, max_relative = 1e-12);
-        assert_relative_eq!(found.moments.slope, 0.5 * square * q * q, max_relative = 4e-3);
-        assert_relative_eq!(found.moments.curvature, 0.375 * square * q.powi(4), max_relative = 8e-3);
+        assert_relative_eq!(found.moments.m0, square, max_relative = 1e-12);
+        assert_relative_eq!(found.moments.mean_m2(), 0.5 * square * q * q, max_relative = 4e-3);
+        assert_relative_eq!(found.moments.mean_m4(), 0.375 * square * q.powi(4), max_relative = 8e-3);
         // cos q = ⅕ on one of two waves of equal height: ½ (1 + cos q) = 0.2 at 143°.
         assert!((found.correlation_length / 60e-6 - 0.352).abs() < 0.02, "{}", found.correlation_length);
-        let flat = GapRoughness::new(&grid, &grid.zeros());
+        let flat = GapRoughness::new(&grid, &grid.zeros()).unwrap();
         assert_eq!((flat.nayak(), flat.peaks()), (None, None));
+    }
+
+    #[test]
+    fn greenwood_and_williamson_have_peaks_above_the_mean_plane() {
+        let moments = SpectralMoments { m0: 1e-14, m2: [4.5e-4; 2], m4: [5e7; 2] };
+        let rough = GapRoughness { first_touch_gap: 4e-7, moments, correlation_length: 0.0 };
+        assert_relative_eq!(rough.nayak().unwrap(), 2.469_135_8, max_relative = 1e-6);
+        let [one, next] = [2.0, 2.1].map(|gap| rough.pressure(115e9, gap * 1e-7).unwrap());
+        assert!(one > 1e5 && one < 1e8 && next < one, "{one:e} {next:e}");
+        // Twice the modulus bears twice as much.
+        assert_relative_eq!(rough.pressure(230e9, 2e-7).unwrap(), 2.0 * one, max_relative = 1e-12);
+        let none = GapRoughness { moments: SpectralMoments { m4: [1e6; 2], ..moments }, ..rough };
+        assert_eq!(none.pressure(115e9, 2e-7), None);
     }
 }
