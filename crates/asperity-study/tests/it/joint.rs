@@ -209,6 +209,20 @@ fn files_for_programs_keep_their_limits() {
     assert!(coefficients.greenwood_tripp.unwrap().rms < 0.5 && coefficients.flow[0].unwrap().rms < 0.05);
 }
 
+/// The elastic slip γ of Abaqus gives the tangential stiffness μ p/γ, of which that in the middle of the range is right.
+#[test]
+fn abaqus_slips_as_the_joint_does() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let even = CASE.replace("\"10 MPa\", ", "").replace("[conductance]", "");
+    let law = law(folder.path(), &format!("{even}samples = 2\n")).unwrap();
+    assert_eq!(law.pressures.len(), 4);
+    let settings = ClientSettings { units: Units::Metre, friction: Some(0.2) };
+    let text = &Client::Abaqus.files(&law, &settings).unwrap()[0].text;
+    let slip: f64 = text.split("ELASTIC SLIP=").nth(1).unwrap().lines().next().unwrap().parse().unwrap();
+    let stiffness = law.values(Kind::StiffnessX, Edge::Median).unwrap()[2];
+    assert!((0.2 * law.pressures[2] / slip / stiffness - 1.0).abs() < 1e-8, "{slip:e} {stiffness:e}");
+}
+
 /// CalculiX exchanges no heat between open faces.
 #[test]
 fn a_gas_is_refused_where_a_program_has_none() {

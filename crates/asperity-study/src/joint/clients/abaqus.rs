@@ -17,10 +17,11 @@ pub(super) fn interaction(sheet: &Sheet<'_>) -> String {
     for [pressure, closure] in &sheet.closure {
         let _ = writeln!(text, "{}, {}", number(*pressure), number(*closure));
     }
-    if let (Some(friction), Some(stiffness)) = (sheet.settings.friction, sheet.tangential_stiffness()) {
+    if let (Some(friction), Some([pressure, stiffness])) =
+        (sheet.settings.friction, sheet.tangential_stiffness())
+    {
         // In stick the stiffness is μ p/γ, in proportion to the pressure, as that of a joint is.
-        let middle = sheet.closure[sheet.closure.len() - sheet.law.pressures.len() / 2 - 1][0];
-        let slip = friction * middle / stiffness;
+        let slip = friction * pressure / stiffness;
         let _ = writeln!(text, "*FRICTION, ELASTIC SLIP={}\n{},", number(slip), number(friction));
     }
     if !sheet.conductance.is_empty() {

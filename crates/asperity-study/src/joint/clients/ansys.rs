@@ -16,7 +16,7 @@ pub(super) fn tables(sheet: &Sheet<'_>) -> String {
     if !sheet.conductance.is_empty() {
         table(&mut text, "JOINT_TCC", &sheet.conductance);
     }
-    if let Some(stiffness) = sheet.tangential_stiffness() {
+    if let Some([_, stiffness]) = sheet.tangential_stiffness() {
         let _ = writeln!(
             text,
             "! Tangential stiffness of an area in the middle of the range, for FKT\nJOINT_FKT={}",

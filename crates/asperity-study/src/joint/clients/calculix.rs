@@ -89,7 +89,7 @@ fn behavior(text: &mut String, points: &[[f64; 2]]) {
 }
 
 fn friction(text: &mut String, sheet: &Sheet<'_>) {
-    if let (Some(friction), Some(stiffness)) = (sheet.settings.friction, sheet.tangential_stiffness()) {
+    if let (Some(friction), Some([_, stiffness])) = (sheet.settings.friction, sheet.tangential_stiffness()) {
         let _ = writeln!(text, "*FRICTION\n{}, {}", number(friction), number(stiffness));
     }
 }

@@ -162,11 +162,13 @@ impl<'l> Sheet<'l> {
         [pressure, last[1] + (pressure - last[0]) / self.last_slope()]
     }
 
-    /// Tangential stiffness of an area in the middle of the range, for programs that take one number.
-    fn tangential_stiffness(&self) -> Option<f64> {
-        let values = self.law.values(Kind::StiffnessX, self.edge)?;
+    /// Pressure and tangential stiffness of an area in the middle of the range, for programs that take one number.
+    fn tangential_stiffness(&self) -> Option<[f64; 2]> {
+        let middle = self.law.pressures.len() / 2;
+        let stiffness = self.law.values(Kind::StiffnessX, self.edge)?[middle];
         let scales = self.settings.units.scales();
-        Some(values[values.len() / 2]).filter(|k| k.is_finite()).map(|k| k * scales.pressure / scales.length)
+        let pressure = self.law.pressures[middle] * scales.pressure;
+        stiffness.is_finite().then(|| [pressure, stiffness * scales.pressure / scales.length])
     }
 
     /// Comment lines about the file, each after `mark`: what it is, its datum, units and range; then what a program does.
