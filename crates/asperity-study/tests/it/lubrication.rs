@@ -187,12 +187,12 @@ fn a_smooth_disc_that_moves_under_a_ball_has_the_steady_film() {
 
 #[test]
 fn interrupted_passes_of_a_ground_disc_go_on_to_the_same_bits() {
-    let text = passing(GROUND, "") + "speed_lower = \"60 mm/s\"\npasses = 3\nstride = 8\n";
+    let text = passing(GROUND, "") + "speed_lower = \"60 mm/s\"\npasses = 3\nstride = 4\n";
     let passes = goes_on(&parsed(&text)).results.passes().unwrap();
     assert_eq!(passes.len(), 3);
     let film = |pass: usize| passes[pass].film.unwrap();
-    // From the second pass on the roughness has filled the contact, and passes are nearly alike.
-    assert!((film(2).mean_film / film(1).mean_film - 1.0).abs() < 1e-2, "{passes:?}");
+    // From the second pass on the roughness has filled the contact, and passes are alike.
+    assert!((film(2).mean_film / film(1).mean_film - 1.0).abs() < 1e-3, "{passes:?}");
     assert!(film(1).solid_share > 0.0 && film(1).min_film < 0.5 * film(1).mean_film);
 }
 
