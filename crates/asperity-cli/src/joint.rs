@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
-use asperity::study::joint::{ClientSettings, Law, samples};
+use asperity::study::joint::{Client, ClientSettings, Law, samples};
 use asperity::study::parametric::{Folder, Queue, Study, Task};
 
 use crate::report::{Outcome, note, print};
@@ -14,18 +14,18 @@ use asperity_report::{figures, page};
 pub(crate) fn joint(arguments: &args::Joint) -> Outcome {
     place::case(&arguments.case, "joint")?;
     let study = samples(&arguments.case)?;
-    let study = match arguments.device {
+    let study = match arguments.cases.device {
         Some(device) => study.on(device)?,
         None => study,
     };
     let directory = arguments.out.clone().unwrap_or_else(|| beside(&arguments.case));
     study.open_devices()?;
     let folder = Folder::enter(&directory, &study)?;
-    study::compute(&Queue::new(&study, &folder, Task::ALL, arguments.retry)?, arguments.quiet)?;
+    study::compute(&Queue::new(&study, &folder, Task::ALL, arguments.cases.retry)?, arguments.cases.quiet)?;
     let settings = ClientSettings { units: arguments.units, friction: arguments.friction };
     let law = write_joint(&study, &folder, &arguments.clients, &settings)?;
     law.doubts().iter().for_each(|doubt| note(&format!("warning: {doubt}")));
-    if arguments.quiet { Ok(()) } else { print(&(page::joint_in_words(&law) + "\n")) }
+    if arguments.cases.quiet { Ok(()) } else { print(&(page::joint_in_words(&law) + "\n")) }
 }
 
 /// Writes the table, the page, the figures of a law, and the files for these programs. Returns the law.
@@ -35,7 +35,7 @@ pub(crate) fn joint(arguments: &args::Joint) -> Outcome {
 pub fn write_joint(
     study: &Study,
     folder: &Folder,
-    clients: &[asperity::study::joint::Client],
+    clients: &[Client],
     settings: &ClientSettings,
 ) -> asperity::Result<Law> {
     let law = Law::collect(study, folder)?;

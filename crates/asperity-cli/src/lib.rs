@@ -5,6 +5,7 @@ mod check;
 mod command;
 mod example;
 mod from_map;
+mod joint;
 mod machine;
 mod maps;
 mod materials;
@@ -16,7 +17,6 @@ mod plot;
 mod report;
 mod run;
 mod signals;
-mod joint;
 mod study;
 mod surface;
 mod threads;
@@ -63,8 +63,8 @@ fn command(arguments: impl IntoIterator<Item = OsString>) -> report::Outcome {
     };
     threads::start(match &command {
         Command::Run(arguments) => arguments.threads,
-        Command::Study(arguments) => arguments.threads,
-        Command::Joint(arguments) => arguments.threads,
+        Command::Study(arguments) => arguments.cases.threads,
+        Command::Joint(arguments) => arguments.cases.threads,
         Command::Contact(arguments) => arguments.writing.threads,
         Command::Slide(arguments) => arguments.writing.threads,
         _ => None,

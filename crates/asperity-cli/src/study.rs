@@ -19,7 +19,7 @@ const MANY: usize = 5000;
 
 pub(crate) fn study(arguments: &args::Study) -> Outcome {
     let study = place::study(&arguments.study)?;
-    let study = match arguments.device {
+    let study = match arguments.cases.device {
         Some(device) => study.on(device)?,
         None => study,
     };
@@ -32,7 +32,7 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
     if arguments.collect {
         let folder = Folder::open(&directory, &study)?;
         let table = collect(&study, &folder)?;
-        return if arguments.quiet { Ok(()) } else { tell(&table, &study, &folder) };
+        return if arguments.cases.quiet { Ok(()) } else { tell(&table, &study, &folder) };
     }
     if study.len() > MANY && !arguments.yes {
         let message = format!("the study has {} cases", study.len());
@@ -41,7 +41,8 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
     study.open_devices()?;
     let folder = Folder::enter(&directory, &study).map_err(|error| changed(error.into()))?;
     foresee(&study, &folder)?;
-    compute(&Queue::new(&study, &folder, task, arguments.retry)?, arguments.quiet).map_err(changed)?;
+    compute(&Queue::new(&study, &folder, task, arguments.cases.retry)?, arguments.cases.quiet)
+        .map_err(changed)?;
     let tally = Tally::from_states(&folder.states(&study)?);
     if tally.left() == 0 && folder.has_grown(&study)? {
         note(
@@ -49,7 +50,7 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
         );
     } else if tally.left() == 0 {
         let table = collect(&study, &folder)?;
-        if !arguments.quiet {
+        if !arguments.cases.quiet {
             tell(&table, &study, &folder)?;
         }
     } else {

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use asperity::solver::Device;
 use asperity::study::joint::{Client, Units};
 use clap::Args;
 
-use super::values::{choice, threads};
+use super::study::Cases;
+use super::values::choice;
 
 /// Compute the law of a joint of rough surfaces for other programs
 ///
@@ -36,19 +36,8 @@ pub(crate) struct Joint {
     /// Friction coefficient of surfaces that may slip, for programs that take one
     #[arg(long, value_name = "MU", value_parser = coefficient)]
     pub(crate) friction: Option<f64>,
-    /// Repeat failed samples
-    #[arg(long)]
-    pub(crate) retry: bool,
-    /// Number of threads, and of samples at a time, at most 1024; default: the limit of a scheduler or container, otherwise
-    /// all cores
-    #[arg(long, value_name = "N", value_parser = threads)]
-    pub(crate) threads: Option<usize>,
-    /// Device that solves the contacts, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
-    #[arg(long, value_name = "DEVICE", value_parser = choice::<Device>())]
-    pub(crate) device: Option<Device>,
-    /// Print only warnings and errors
-    #[arg(long)]
-    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) cases: Cases,
 }
 
 fn coefficient(text: &str) -> Result<f64, String> {

@@ -35,12 +35,19 @@ pub(crate) struct Study {
     /// Compute nothing; write the table and the page of the finished cases
     #[arg(long, conflicts_with = "retry")]
     pub(crate) collect: bool,
-    /// Repeat failed cases
-    #[arg(long)]
-    pub(crate) retry: bool,
     /// Allow more than 5000 cases
     #[arg(long)]
     pub(crate) yes: bool,
+    #[command(flatten)]
+    pub(crate) cases: Cases,
+}
+
+/// How cases are computed.
+#[derive(Debug, Args)]
+pub(crate) struct Cases {
+    /// Repeat failed cases
+    #[arg(long)]
+    pub(crate) retry: bool,
     /// Number of threads, and of cases at a time, at most 1024; default: the limit of a scheduler or
     /// container, otherwise all cores
     #[arg(long, value_name = "N", value_parser = threads)]
