@@ -73,7 +73,7 @@ impl Solver<'_> {
                 moving
             }
         };
-        let mut measure = None;
+        let mut measure: Option<FilmMeasure> = None;
         let mut contacts: Vec<Contact> = Vec::with_capacity(self.positions.len());
         let mut films = Vec::with_capacity(self.positions.len());
         for (index, position) in self.positions.iter().enumerate() {
@@ -98,22 +98,14 @@ impl Solver<'_> {
             };
             let problem = FilmProblem { speed, ..lubrication.problem(&gap, control) };
             // In an overlap the dry contact changes from position to position.
-            let measure = match measure.take().filter(|_| !is_overlap) {
-                Some(known) => measure.insert(known),
-                None => {
-                    let above = gap.mapv(|gap| gap - lubrication.boundary_film);
-                    let params = Params::default();
-                    let dry = solve_normal(&mut *operator, &above, &Bounds::ELASTIC, control, None, &params)
-                        .map_err(|error| self.at_position(index, error))?;
-                    measure.insert(FilmMeasure::new(
-                        pair,
-                        *lubrication,
-                        &gap,
-                        &dry.pressure,
-                        (&grid, boundary),
-                    ))
-                }
-            };
+            if is_overlap || measure.is_none() {
+                let above = gap.mapv(|gap| gap - lubrication.boundary_film);
+                let params = Params::default();
+                let dry = solve_normal(&mut *operator, &above, &Bounds::ELASTIC, control, None, &params)
+                    .map_err(|error| self.at_position(index, error))?;
+                measure = Some(FilmMeasure::new(pair, *lubrication, &gap, &dry.pressure, (&grid, boundary)));
+            }
+            let measure = measure.as_ref().expect("measured at the first position");
             let hardness = pair.yields().then(|| place.turned_values(pair.bounds(position).upper()));
             let sliding = self.motion.sliding_speed();
             let (forces, film) = measure.record(&problem, &solution, &grid, sliding, hardness.as_ref());

@@ -156,7 +156,7 @@ function busiest(packed) {
   return packed.busiest;
 }
 
-/** Where both bodies are, seen from above and to scale; what faces is shaded. */
+/** Draws both bodies from above and to scale; the part where they face each other is shaded. */
 class PlacesView extends Drawing {
   constructor(place) {
     super(place, "places", "where both bodies are, from above", []);

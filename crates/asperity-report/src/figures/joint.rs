@@ -29,23 +29,11 @@ pub fn draw_joint(
 /// All curves of a law.
 pub(crate) fn curves(law: &Law) -> Vec<Curves> {
     let mut all = vec![closure(law)];
-    let conductance = [Kind::ThermalConductance, Kind::ElectricalConductance].into_iter();
-    all.extend(over_pressure(
-        law,
-        "joint_stiffness",
-        "stiffness of an area",
-        &STIFFNESSES,
-        persson_stiffness,
-    ));
-    all.extend(over_pressure(law, "joint_area", "contact fraction", &AREA, theories_of_area));
-    for kind in conductance {
-        all.extend(over_pressure(
-            law,
-            "joint_conductance",
-            "conductance of an area",
-            &[(kind, "computed")],
-            |_, _| Vec::new(),
-        ));
+    all.extend(over_pressure(law, "joint_stiffness", "stiffness of an area", &STIFFNESSES, &[STIFFNESS]));
+    all.extend(over_pressure(law, "joint_area", "contact fraction", &AREA, &AREAS));
+    for kind in [Kind::ThermalConductance, Kind::ElectricalConductance] {
+        let shown = [(kind, "computed")];
+        all.extend(over_pressure(law, "joint_conductance", "conductance of an area", &shown, &[]));
     }
     all.extend(flow(law));
     all
@@ -53,19 +41,20 @@ pub(crate) fn curves(law: &Law) -> Vec<Curves> {
 
 const STIFFNESSES: [(Kind, &str); 3] =
     [(Kind::Stiffness, "normal"), (Kind::StiffnessX, "tangential, x"), (Kind::StiffnessY, "tangential, y")];
+const STIFFNESS: Theory = ("normal, by Persson", JointRecord::persson_stiffness_of_area);
 const AREA: [(Kind, &str); 1] = [(Kind::ContactFraction, "computed")];
+const AREAS: [Theory; 2] = [
+    ("Persson", |row| row.persson_fraction),
+    ("Bush, Gibson, Thomas", |row| row.bgt_fraction.filter(|fraction| *fraction < 1.0)),
+];
 
 /// Pressure over closure, with the continuation to 0, and Greenwood and Williamson at the same gaps.
 fn closure(law: &Law) -> Curves {
     let points = |edge: Edge| law.closure(edge).into_iter().map(|[p, c]| [c, p]).collect::<Vec<_>>();
     let mut series = vec![Series::new("median", points(Edge::Median), Mark::LineAndPoints)];
-    let gaps = law.values(Kind::MeanGap, Edge::Median).unwrap_or_default();
-    let theory = law
-        .theories
-        .iter()
-        .zip(&gaps)
-        .filter_map(|(row, gap)| Some([law.datum - gap, row.greenwood_williamson_pressure?]));
-    let theory: Vec<_> = theory.collect();
+    let rows = law.theories.iter().zip(law.closures(Edge::Median));
+    let theory: Vec<_> =
+        rows.filter_map(|(row, closure)| Some([closure, row.greenwood_williamson_pressure?])).collect();
     if !theory.is_empty() {
         series.push(Series::new("Greenwood, Williamson, at the gap of one sample", theory, Mark::Dashed));
     }
@@ -79,7 +68,8 @@ fn closure(law: &Law) -> Curves {
     Curves::new("joint_closure", "pressure over the closure of the joint", chart)
 }
 
-type Beside = fn(&Law, &JointRecord) -> Vec<(&'static str, Option<f64>)>;
+/// A theory that is drawn beside a quantity: its name, and its value.
+type Theory = (&'static str, fn(&JointRecord) -> Option<f64>);
 
 /// Quantities over the mean pressure, the first one with its band, and theories beside. `None` without any of them.
 fn over_pressure(
@@ -87,7 +77,7 @@ fn over_pressure(
     name: &'static str,
     label: &'static str,
     shown: &[(Kind, &str)],
-    theories: Beside,
+    theories: &[Theory],
 ) -> Option<Curves> {
     let known: Vec<(&Quantity, &str)> =
         shown.iter().filter_map(|(kind, name)| Some((law.quantity(*kind)?, *name))).collect();
@@ -101,17 +91,11 @@ fn over_pressure(
             Series::new(*name, medians(quantity), mark)
         })
         .collect();
-    let names: Vec<&str> =
-        law.theories.first().map(|row| theories(law, row).into_iter().map(|(name, _)| name).collect())?;
-    for (n, name) in names.into_iter().enumerate() {
-        let of_theory = law
-            .pressures
-            .iter()
-            .zip(&law.theories)
-            .filter_map(|(p, row)| Some([*p, theories(law, row)[n].1?]));
-        let of_theory: Vec<_> = of_theory.collect();
-        if !of_theory.is_empty() {
-            series.push(Series::new(name, of_theory, Mark::Dashed));
+    for (name, theory) in theories {
+        let rows = law.pressures.iter().zip(&law.theories);
+        let points: Vec<_> = rows.filter_map(|(p, row)| Some([*p, theory(row)?])).collect();
+        if !points.is_empty() {
+            series.push(Series::new(*name, points, Mark::Dashed));
         }
     }
     let unit = match first.kind.unit() {
@@ -121,21 +105,6 @@ fn over_pressure(
     let chart = Chart::new("", Axis::log("mean pressure", Unit::Pressure), Axis::log(label, unit), series);
     let chart = with_band(law, chart, first);
     Some(Curves::new(name, format!("{label} over the mean pressure"), chart))
-}
-
-/// Normal stiffness by Persson.
-fn persson_stiffness(_: &Law, row: &JointRecord) -> Vec<(&'static str, Option<f64>)> {
-    vec![(
-        "normal, by Persson",
-        row.persson_stiffness.map(|stiffness| stiffness * row.mean_pressure / row.load),
-    )]
-}
-
-fn theories_of_area(_: &Law, row: &JointRecord) -> Vec<(&'static str, Option<f64>)> {
-    vec![
-        ("Persson", row.persson_fraction),
-        ("Bush, Gibson, Thomas", row.bgt_fraction.filter(|fraction| *fraction < 1.0)),
-    ]
 }
 
 /// Flow factors over the mean gap in rms heights, beside Patir and Cheng.

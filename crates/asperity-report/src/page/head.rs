@@ -57,7 +57,8 @@ fn unfinished(found: &PageData) -> String {
     )
 }
 
-fn list(title: &str, class: &str, lines: &[String]) -> String {
+/// A list below a heading; nothing without lines.
+pub(super) fn list(title: &str, class: &str, lines: &[String]) -> String {
     if lines.is_empty() {
         return String::new();
     }

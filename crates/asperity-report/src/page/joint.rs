@@ -5,10 +5,11 @@ use std::path::Path;
 
 use asperity_base::units::{Dimension, format, format_number, format_number_digits};
 use asperity_study::io;
-use asperity_study::joint::{Band, Kind, Law};
+use asperity_study::joint::{Band, Edge, Kind, Law};
 use serde_json::json;
 
-use super::html::{escaped, facts, minus};
+use super::head::list;
+use super::html::{escaped, facts, minus, with_code};
 use super::{Section, curves, framed};
 use crate::draw::{Colours, palette};
 use crate::figures::joint_curves;
@@ -35,18 +36,16 @@ pub fn joint_in_words(law: &Law) -> String {
             write(band.median)
         }
     };
+    let with_unit = |band: Band, dimension: Dimension| {
+        let unit = dimension.multiple(band.median);
+        let number = |value: f64| format_number_digits(value / unit.factor, 3);
+        format!("{} {}", spread(band, &number), unit.symbol)
+    };
     let at = format(law.pressures[middle], Dimension::Pressure);
     let mut parts = Vec::new();
     if let Some(gap) = band(Kind::MeanGap) {
-        let unit = Dimension::Length.multiple(law.datum - gap.median);
-        let closure = Band { median: law.datum - gap.median, ..gap };
-        let number = |value: f64| format_number_digits(value / unit.factor, 3);
-        let text = if law.samples > 1 {
-            format!("{} ± {} {}", number(closure.median), number(gap.half_width()), unit.symbol)
-        } else {
-            format!("{} {}", number(closure.median), unit.symbol)
-        };
-        parts.push(format!("is closed by {text}"));
+        let closure = Band { median: law.closures(Edge::Median)[middle], ..gap };
+        parts.push(format!("is closed by {}", with_unit(closure, Dimension::Length)));
     }
     if let Some(stiffness) = band(Kind::Stiffness) {
         let number = |value: f64| format_number_digits(value / GPA_PER_MM, 3);
@@ -56,11 +55,7 @@ pub fn joint_in_words(law: &Law) -> String {
         (Kind::ThermalConductance, Dimension::ThermalConductanceOfArea),
         (Kind::ElectricalConductance, Dimension::ElectricalConductanceOfArea),
     ] {
-        if let Some(conductance) = band(kind) {
-            let unit = dimension.multiple(conductance.median);
-            let number = |value: f64| format_number_digits(value / unit.factor, 3);
-            parts.push(format!("conducts {} {}", spread(conductance, &number), unit.symbol));
-        }
+        parts.extend(band(kind).map(|conductance| format!("conducts {}", with_unit(conductance, dimension))));
     }
     let last = parts.pop().unwrap_or_default();
     let all = if parts.is_empty() { last } else { format!("{} and {last}", parts.join(", ")) };
@@ -84,13 +79,8 @@ fn page(law: &Law, files: &[String], doubts: &[String]) -> String {
         escaped(&law.title),
         escaped(&minus(&joint_in_words(law)))
     );
-    if !doubts.is_empty() {
-        head += "<div class=\"warning\"><h2>Warnings</h2><ul>";
-        doubts.iter().for_each(|doubt| {
-            let _ = write!(head, "<li>{}</li>", escaped(doubt));
-        });
-        head += "</ul></div>";
-    }
+    let warnings: Vec<String> = doubts.iter().map(|doubt| with_code(doubt)).collect();
+    head += &list("Warnings", "warning", &warnings);
     let colours = json!({ "pressure": palette(Colours::Pressure) });
     framed(&law.title, &head, &sections, &json!({ "colours": colours, "charts": data }))
 }
@@ -108,10 +98,9 @@ fn table(law: &Law) -> String {
     }
     html += "</tr></thead><tbody>";
     let number = |value: f64| minus(&format_number_digits(value, 4));
-    for (n, pressure) in law.pressures.iter().enumerate() {
-        let gap = law.quantity(Kind::MeanGap).and_then(|gap| gap.bands[n]);
-        let closure = gap.map_or(String::new(), |gap| number(law.datum - gap.median));
-        let _ = write!(html, "<tr><td>{}</td><td>{closure}</td>", format(*pressure, Dimension::Pressure));
+    for (n, (pressure, closure)) in law.pressures.iter().zip(law.closures(Edge::Median)).enumerate() {
+        let pressure = format(*pressure, Dimension::Pressure);
+        let _ = write!(html, "<tr><td>{pressure}</td><td>{}</td>", number(closure));
         for quantity in &law.quantities {
             let cell = match quantity.bands[n] {
                 Some(band) if law.samples > 1 => {
@@ -141,11 +130,10 @@ fn fits(law: &Law) -> String {
             .filter(|ratio| ratio.is_finite());
         ratio.map(|ratio| format!("{} times what is computed at {at}", format_number_digits(ratio, 3)))
     };
-    let of_area = row.persson_stiffness.map(|stiffness| stiffness * row.mean_pressure / row.load);
     let theories = [
         ("area by Persson", ratio(row.persson_fraction, median(Kind::ContactFraction))),
         ("area by Bush, Gibson and Thomas", ratio(row.bgt_fraction, median(Kind::ContactFraction))),
-        ("stiffness by Persson", ratio(of_area, median(Kind::Stiffness))),
+        ("stiffness by Persson", ratio(row.persson_stiffness_of_area(), median(Kind::Stiffness))),
         (
             "pressure at this gap by Greenwood and Williamson",
             ratio(row.greenwood_williamson_pressure, Some(row.mean_pressure)),

@@ -1,7 +1,7 @@
 //! Captions of the charts and maps of the page, as in a paper.
 
 /// Captions by the names of figures and of the maps of a contact. A capability has its own.
-const CAPTIONS: [(&str, &str); 50] = [
+const CAPTIONS: [(&str, &str); 51] = [
     (
         "approach",
         "Rigid-body approach of each pass, with what the surfaces have lost by plastic deformation.",
@@ -44,6 +44,10 @@ const CAPTIONS: [(&str, &str); 50] = [
     (
         "joint_conductance",
         "Heat or current through a unit of the apparent area under a unit of difference: median and band of the samples.",
+    ),
+    (
+        "joint_flow",
+        "Mean flow over that between smooth walls at the mean gap, and fluid that sliding walls carry: medians of the samples, beside the fits of Patir and Cheng.",
     ),
     (
         "joint_stiffness",

@@ -270,8 +270,8 @@ impl<'a> Sizes<'a> {
         Memory { solver, together, results, volumes }
     }
 
-    /// Numbers that viscoelastic bodies remember in a motion: before a pass, in it and after it; and tractions of the
-    /// positions of lubricated ones.
+    /// Numbers that a motion keeps: viscoelastic bodies remember before a pass, in it and after it; lubricated bodies keep
+    /// the tractions at each position.
     fn remembered(&self) -> f64 {
         let of = |(body, grid): (&Body, &Grid)| {
             let given = body.relaxation_terms()?;

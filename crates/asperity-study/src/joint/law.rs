@@ -23,13 +23,14 @@ const TAIL: f64 = 100.0;
 /// Points of the continuation, as ratios to the least computed pressure.
 const TAIL_POINTS: [f64; 6] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5];
 
-/// Roll-off wavelength over the correlation length, of self-affine surfaces: 0.28 to 0.34 for Hurst exponents of 0.5 to 1.
+/// Roll-off wavelength over the correlation length of self-affine surfaces: 2.9 to 3.6 for Hurst exponents of 0.5 to 1, and
+/// down to 2.7 where the shortest wavelength is a quarter of it.
 const ROLLOFF: f64 = 3.1;
 
 /// Roll-off wavelengths along a sample from which on it is a law.
 const ENOUGH: f64 = 8.0;
 
-/// Share of itself by which the estimate of the roll-off wavelength may be too long: it is, where the band of wavelengths is narrow.
+/// Relative error of the roll-off wavelength that is estimated from the correlation length.
 const ROLLOFF_UNCERTAINTY: f64 = 0.15;
 
 /// Relative error of a slope between points that passes as rounding.
@@ -195,8 +196,7 @@ impl Law {
         for declared in &QUANTITIES {
             let band = |found: &Vec<Found<'_>>| {
                 let values: Vec<f64> = found.iter().filter_map(declared.value).collect();
-                Band::from_values(values)
-                    .filter(|_| 2 * found.iter().filter_map(declared.value).count() > found.len())
+                if 2 * values.len() > found.len() { Band::from_values(values) } else { None }
             };
             let bands: Vec<Option<Band>> = found.iter().map(band).collect();
             if bands.iter().any(Option::is_some) {
@@ -210,7 +210,7 @@ impl Law {
         let (rms_height, rms_slope) = (of_surfaces(|row| row.rms_height), of_surfaces(|row| row.rms_slope));
         let distance = |n: &usize| (found[0][*n].joint.rms_height - rms_height.median).abs();
         let middle = (0..samples.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
-        let conducts = first.conductances.first().is_some_and(|row| row.gas_share > 0.0);
+        let has_gas = first.conductances.first().is_some_and(|row| row.gas_share > 0.0);
         let mut law = Self {
             title: study.title().to_owned(),
             samples: samples.len(),
@@ -224,7 +224,7 @@ impl Law {
             datum: 0.0,
             rms_height,
             rms_slope,
-            has_gas: conducts,
+            has_gas,
         };
         let edges = [Edge::Low, Edge::Median, Edge::High];
         law.datum =
@@ -256,9 +256,13 @@ impl Law {
     pub fn closure(&self, edge: Edge) -> Vec<[f64; 2]> {
         let (least, decay, gap) = self.least(edge);
         let tail = TAIL_POINTS.map(|part| [part * least, self.datum - (gap - decay * part.ln())]);
-        let gaps = self.gaps(edge);
-        let computed = self.pressures.iter().zip(gaps).map(|(p, gap)| [*p, self.datum - gap]);
+        let computed = self.pressures.iter().zip(self.closures(edge)).map(|(p, closure)| [*p, closure]);
         [[0.0, 0.0]].into_iter().chain(tail).chain(computed).collect()
+    }
+
+    /// Returns the closure of an edge at each computed pressure.
+    pub fn closures(&self, edge: Edge) -> Vec<Metre> {
+        self.gaps(edge).into_iter().map(|gap| self.datum - gap).collect()
     }
 
     /// Whether pressures and closures of all edges rise from point to point.

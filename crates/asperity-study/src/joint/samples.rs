@@ -97,8 +97,8 @@ pub fn samples(path: &Path) -> Result<Study> {
     })
 }
 
-/// Returns the seeds of a topography and of what is added to it, each with a value for each sample. The first sample has
-/// those of the case.
+/// Returns the keys of the seeds of a topography and of what is added to it, each with its value for each sample. The first
+/// sample has the seeds of the case.
 fn seeds(table: &str, topography: &TopographySpec, count: usize) -> Vec<(String, Vec<Value>)> {
     let own = match topography.source {
         Source::Generate { seed, .. } => Some((format!("{table}.seed"), seed)),

@@ -3,14 +3,13 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::law::{Band, Law};
-use super::quantities::Kind;
+use super::law::{Band, Edge, Law};
 use crate::io::atomic;
 use asperity_base::error::Result;
 
 impl Law {
-    /// Writes the law as CSV: a row for each pressure, with median, lower and upper edge of each quantity, and the closure
-    /// of the median. Unknown values are empty.
+    /// Writes the law as CSV. A row has the pressure, the closure of the median, and the median, the lower and the upper edge
+    /// of each quantity. The cell of an unknown value is empty.
     pub fn csv(&self) -> String {
         let head = |name: &str, unit: &str| {
             if unit.is_empty() { name.to_owned() } else { format!("{name} ({unit})") }
@@ -31,9 +30,8 @@ impl Law {
         let cell = |value: Option<f64>| {
             value.filter(|value| value.is_finite()).map_or(String::new(), |value| format!("{value:e}"))
         };
-        for (n, pressure) in self.pressures.iter().enumerate() {
-            let gap = self.quantity(Kind::MeanGap).and_then(|gap| gap.bands[n]);
-            let _ = write!(csv, "{pressure:e},{}", cell(gap.map(|gap| self.datum - gap.median)));
+        for (n, (pressure, closure)) in self.pressures.iter().zip(self.closures(Edge::Median)).enumerate() {
+            let _ = write!(csv, "{pressure:e},{closure:e}");
             for quantity in &self.quantities {
                 let values: [Option<f64>; 3] = match quantity.bands[n] {
                     Some(Band { low, median, high }) => [Some(median), Some(low), Some(high)],
@@ -42,8 +40,12 @@ impl Law {
                 let _ = write!(csv, ",{}", values.map(cell).join(","));
             }
             let row = &self.theories[n];
-            let of_area = row.persson_stiffness.map(|stiffness| stiffness * row.mean_pressure / row.load);
-            let beside = [row.persson_fraction, row.bgt_fraction, of_area, row.greenwood_williamson_pressure];
+            let beside = [
+                row.persson_fraction,
+                row.bgt_fraction,
+                row.persson_stiffness_of_area(),
+                row.greenwood_williamson_pressure,
+            ];
             let _ = writeln!(csv, ",{}", beside.map(cell).join(","));
         }
         csv

@@ -185,11 +185,8 @@ fn known(read: &Lubricant, source: &dyn Source) -> Result<()> {
     {
         let expected = "none but with `law = \"doolittle\"`";
         require(source, key, is_free_volume || !given, expected, None)?;
-        let (expected, hint) = (
-            format!("also `{key}`"),
-            "for example `bulk_modulus = \"1.4 GPa\"` and `occupied_volume = 0.67`",
-        );
-        require(source, "law", !is_free_volume || given, &expected, Some(hint))?;
+        let hint = "for example `bulk_modulus = \"1.4 GPa\"` and `occupied_volume = 0.67`";
+        require(source, "law", !is_free_volume || given, &format!("also `{key}`"), Some(hint))?;
     }
     let one = read.limiting_stress.is_none() || read.eyring_stress.is_none();
     require(source, "eyring_stress", one, "none beside `limiting_stress`", None)?;

@@ -1,4 +1,4 @@
-//! MOOSE: functions for materials of one's own, and the constant of its linear model of a gap.
+//! MOOSE: functions of the closure and of the pressure, for materials that its user writes.
 
 use std::fmt::Write as _;
 
