@@ -587,10 +587,13 @@ class Joint(TypedDict, total=False):
     ----------
     samples : int
         Samples that `asperity joint` computes, each of generated surfaces from other seeds; whole number, 1 … 10000.
-        Without it: 1, or the number of patches.
+        Without it: 1, or the number of patches or files.
     patches : float or str
         Patches along x and y into which `asperity joint` cuts measured surfaces; each is a sample; `[nx, ny]`, each ≥
         1. Without it: the whole map.
+    files : float or str
+        Measured files that `asperity joint` takes in place of that of the one measured body; each is a sample; file
+        names, relative to the case file. Without it: that of the body.
     every : int
         Interval of the points of a sweep, or of the increments, that are computed; 0 for the last contact alone; whole
         number ≥ 0. By default `1`.
@@ -598,6 +601,7 @@ class Joint(TypedDict, total=False):
 
     samples: int
     patches: Quantity
+    files: Quantity
     every: int
 
 
@@ -696,7 +700,7 @@ class Capabilities(TypedDict, total=False):
     fatigue: Annotated[Fatigue | None, "",
         "Fatigue below the surfaces of bodies under loads that repeat: `to`, `layers`, `every`, `passes`."]
     joint: Annotated[Joint | None, "",
-        "Law of a joint of rough surfaces: tangential stiffness, and theories beside: `samples`, `patches`, `every`."]
+        "Law of a joint of rough surfaces: tangential stiffness, and theories beside: `samples`, `patches`, `files`, `every`."]
 
 
 class OfBody(TypedDict, total=False):

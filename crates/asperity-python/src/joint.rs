@@ -38,8 +38,8 @@ pub(crate) fn joint<'py>(
 ) -> PyResult<Found<'py>> {
     let clients: Vec<Client> = clients.iter().map(|client| known(client)).collect();
     let settings = ClientSettings { units: known::<Units>(&settings.0), friction: settings.1 };
-    let law = work::run(py, threads, progress.as_ref(), |looking| {
-        let study = samples(&case)?;
+    let (law, doubts) = work::run(py, threads, progress.as_ref(), |looking| {
+        let study = samples(&case, &clients)?;
         study.open_devices()?;
         let folder = Folder::enter(&directory, &study)?;
         let queue = Queue::new(&study, &folder, Task::ALL, retry)?;
@@ -57,7 +57,7 @@ pub(crate) fn joint<'py>(
     let closure = law.closure(Edge::Median);
     let part = |n: usize| array(closure.iter().map(|point| point[n]).collect());
     Ok((
-        (joint_in_words(&law), law.doubts(), coefficients, law.samples, law.datum),
+        (joint_in_words(&law), doubts, coefficients, law.samples, law.datum),
         array(law.pressures.clone()),
         [part(0), part(1)],
         quantities.collect(),

@@ -34,7 +34,7 @@ pub(crate) struct Joint {
     #[arg(long, value_name = "UNITS", default_value = "mm", value_parser = choice::<Units>())]
     pub(crate) units: Units,
     /// Friction coefficient of surfaces that may slip, for programs that take one
-    #[arg(long, value_name = "MU", value_parser = coefficient)]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = coefficient)]
     pub(crate) friction: Option<f64>,
     #[command(flatten)]
     pub(crate) cases: Cases,

@@ -32,7 +32,7 @@ pub(crate) fn curves(law: &Law) -> Vec<Curves> {
     all.extend(over_pressure(law, "joint_stiffness", "stiffness of an area", &STIFFNESSES, &[STIFFNESS]));
     all.extend(over_pressure(law, "joint_area", "contact fraction", &AREA, &AREAS));
     for kind in [Kind::ThermalConductance, Kind::ElectricalConductance] {
-        let shown = [(kind, "computed")];
+        let shown = [(kind, "median")];
         all.extend(over_pressure(law, "joint_conductance", "conductance of an area", &shown, &[]));
     }
     all.extend(flow(law));
@@ -42,7 +42,7 @@ pub(crate) fn curves(law: &Law) -> Vec<Curves> {
 const STIFFNESSES: [(Kind, &str); 3] =
     [(Kind::Stiffness, "normal"), (Kind::StiffnessX, "tangential, x"), (Kind::StiffnessY, "tangential, y")];
 const STIFFNESS: Theory = ("normal, by Persson", JointRecord::persson_stiffness_of_area);
-const AREA: [(Kind, &str); 1] = [(Kind::ContactFraction, "computed")];
+const AREA: [(Kind, &str); 1] = [(Kind::ContactFraction, "median")];
 const AREAS: [Theory; 2] = [
     ("Persson", |row| row.persson_fraction),
     ("Bush, Gibson, Thomas", |row| row.bgt_fraction.filter(|fraction| *fraction < 1.0)),
@@ -110,7 +110,7 @@ fn over_pressure(
 /// Flow factors over the mean gap in rms heights, beside Patir and Cheng.
 fn flow(law: &Law) -> Option<Curves> {
     let sigma = law.rms_height.median;
-    let gaps = law.values(Kind::MeanGap, Edge::Median)?;
+    let gaps = law.values(Kind::FlowGap, Edge::Median)?;
     let ratios: Vec<f64> = gaps.iter().map(|gap| gap / sigma).collect();
     let of = |kind: Kind, name: &str, mark: Mark| {
         let values = law.values(kind, Edge::Median)?;

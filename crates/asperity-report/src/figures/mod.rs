@@ -21,6 +21,7 @@ mod capability;
 mod subsurface;
 mod surfaces;
 mod sweep;
+mod theories;
 #[cfg(test)]
 mod tests;
 
@@ -55,6 +56,7 @@ pub(crate) use subsurface::{columns as stress_columns, contact as contact_of_sec
 pub use surfaces::RINGS;
 pub(crate) use surfaces::{as_measured, changed, curves as of_surfaces};
 pub(crate) use sweep::curves as of_sweep;
+pub(crate) use theories::Theories;
 
 /// Writes a force with its unit. A force that pulls has a minus sign.
 fn force(value: f64) -> String {
@@ -190,7 +192,8 @@ fn gather_on<'a>(
     }
     let points = results.sweep()?;
     if !points.is_empty() {
-        sweep::draw(&points, &results.case()?, &mut sheet)?;
+        let case = results.case()?;
+        sweep::draw(&points, &case, Theories::of(results, &case).as_ref(), &mut sheet)?;
     }
     let case = results.case()?;
     if case.plasticity.is_some() {

@@ -8,6 +8,7 @@ use asperity_study::Case;
 use asperity_study::case::Prescribed;
 
 use super::sheet::Sheet;
+use super::theories::Theories;
 use super::{Curves, force};
 use crate::draw::{Axis, Chart, Mark, Series, Unit};
 use crate::error::Result;
@@ -32,9 +33,14 @@ const fn drawn(
     OfPoints { column, label, may_be_log, value, beside: &[] }
 }
 
-pub(super) fn draw(points: &[SweepRecord], case: &Case, sheet: &mut Sheet) -> Result {
+pub(super) fn draw(
+    points: &[SweepRecord],
+    case: &Case,
+    theories: Option<&Theories>,
+    sheet: &mut Sheet,
+) -> Result {
     let of = loads_in_words(points);
-    curves(points, case).into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))
+    curves(points, case, theories).into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))
 }
 
 /// The loads of a sweep, as subtitles name them.
@@ -43,8 +49,8 @@ pub(super) fn loads_in_words(points: &[SweepRecord]) -> String {
     if from == to { format!("load {from}") } else { format!("load {from} to {to}") }
 }
 
-/// All curves of a sweep of at least one point.
-pub(crate) fn curves(points: &[SweepRecord], case: &Case) -> Vec<Curves> {
+/// All curves of a sweep of at least one point, beside theories of rough bodies.
+pub(crate) fn curves(points: &[SweepRecord], case: &Case, theories: Option<&Theories>) -> Vec<Curves> {
     if let Some(friction) = case.friction.as_ref().filter(|friction| friction.sweeps()) {
         // Bodies that attract each other slide under more than their load.
         let limit = case.interface.is_empty().then_some(&friction.law);
@@ -72,19 +78,38 @@ pub(crate) fn curves(points: &[SweepRecord], case: &Case) -> Vec<Curves> {
         let curve = |value: fn(&SweepRecord) -> Option<f64>| {
             ordered.iter().map(|point| [x(point), value(point).unwrap_or(f64::NAN)]).collect::<Vec<_>>()
         };
-        let alone = BesidePoints { name: "", value, is_dashed: false };
+        let theories = of_theories(theories, name, &ordered, x);
+        let own = if theories.is_empty() { "" } else { "computed" };
+        let alone = BesidePoints { name: own, value, is_dashed: false };
         let all = if beside.is_empty() { std::slice::from_ref(&alone) } else { beside };
         let series = all.iter().filter_map(|BesidePoints { name, value, is_dashed }| {
             let mark = if *is_dashed { Mark::Dashed } else { Mark::LineAndPoints };
             let curve = curve(*value);
             curve.iter().any(|[_, y]| y.is_finite()).then(|| Series::new(*name, curve, mark))
         });
-        let series = series.collect();
+        let series = series.chain(theories).collect();
         let horizontal = Axis { log, ..Axis::of(swept.as_str(), column) };
         let vertical = Axis { log: log && may_be_log, ..Axis::of(label, name) };
         Curves::new(name, format!("{label} over {swept}"), Chart::new("", horizontal, vertical, series))
     });
     drawn.collect()
+}
+
+/// The theories of a column, over what is swept.
+fn of_theories(
+    theories: Option<&Theories>,
+    column: &str,
+    ordered: &[&SweepRecord],
+    x: Number,
+) -> Vec<Series> {
+    let (Some(theories), Some(first)) = (theories, ordered.first()) else { return Vec::new() };
+    let names = theories.beside(column, first).into_iter().map(|(name, _)| name).enumerate();
+    names
+        .map(|(n, name)| {
+            let values = ordered.iter().map(|point| [x(point), theories.beside(column, point)[n].1]);
+            Series::new(name, values.collect(), Mark::Dashed)
+        })
+        .collect()
 }
 
 /// The smallest and the largest load.

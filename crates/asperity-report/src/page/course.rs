@@ -38,7 +38,8 @@ pub(super) fn loading(found: &PageData, charts: &mut Vec<Value>) -> Option<Strin
 /// none of others.
 pub(super) fn over_speed(found: &PageData, charts: &mut Vec<Value>) -> Option<String> {
     (found.points.len() > 1 && is_over_speed(found)).then_some(())?;
-    Some(curves::first(figures::of_sweep(&found.points, &found.case), charts)).filter(|html| !html.is_empty())
+    Some(curves::first(figures::of_sweep(&found.points, &found.case, None), charts))
+        .filter(|html| !html.is_empty())
 }
 
 /// Whether the points differ by their speed.
@@ -77,7 +78,8 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     }
     // Those over the speed have a section of their own.
     if !found.points.is_empty() && !is_over_speed(found) {
-        html += &curves::html(figures::of_sweep(&found.points, &found.case), charts);
+        let theories = figures::Theories::of(found.results, &found.case);
+        html += &curves::html(figures::of_sweep(&found.points, &found.case, theories.as_ref()), charts);
     }
     let last = found.passes.len();
     for (file, title, key) in [

@@ -14,6 +14,9 @@ use super::{Section, curves, framed};
 use crate::draw::{Colours, palette};
 use crate::figures::joint_curves;
 
+/// Relative scatter that is rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// Pascals per metre in a GPa per mm.
 const GPA_PER_MM: f64 = 1e12;
 
@@ -30,7 +33,7 @@ pub fn joint_in_words(law: &Law) -> String {
     let middle = law.pressures.len() / 2;
     let band = |kind: Kind| law.quantity(kind).and_then(|quantity| quantity.bands[middle]);
     let spread = |band: Band, write: &dyn Fn(f64) -> String| {
-        if law.samples > 1 {
+        if is_band(law, band) {
             format!("{} ± {}", write(band.median), write(band.half_width()))
         } else {
             write(band.median)
@@ -60,9 +63,17 @@ pub fn joint_in_words(law: &Law) -> String {
     let last = parts.pop().unwrap_or_default();
     let all = if parts.is_empty() { last } else { format!("{} and {last}", parts.join(", ")) };
     let [least, most] = [0, law.pressures.len() - 1].map(|n| format(law.pressures[n], Dimension::Pressure));
-    let decay = format(law.coefficients().exponential.decay, Dimension::Length);
+    let decay = law.coefficients().exponential.map(|fit| {
+        let decay = format(fit.decay, Dimension::Length);
+        format!("; from {least} to {most} the pressure falls by e in {decay}")
+    });
     let samples = if law.samples == 1 { "1 sample".to_owned() } else { format!("{} samples", law.samples) };
-    format!("At {at} the joint {all}; {samples}; from {least} to {most} the pressure falls by e in {decay}.")
+    format!("At {at} the joint {all}; {samples}{}.", decay.unwrap_or_default())
+}
+
+/// Whether the samples scatter by more than rounding.
+fn is_band(law: &Law, band: Band) -> bool {
+    law.samples > 1 && band.half_width() > ROUNDING * band.median.abs()
 }
 
 fn page(law: &Law, files: &[String], doubts: &[String]) -> String {
@@ -103,7 +114,7 @@ fn table(law: &Law) -> String {
         let _ = write!(html, "<tr><td>{pressure}</td><td>{}</td>", number(closure));
         for quantity in &law.quantities {
             let cell = match quantity.bands[n] {
-                Some(band) if law.samples > 1 => {
+                Some(band) if is_band(law, band) => {
                     format!("{} ± {}", number(band.median), number(band.half_width()))
                 }
                 Some(band) => number(band.median),
@@ -143,16 +154,17 @@ fn fits(law: &Law) -> String {
     let length = |value: f64| format(value, Dimension::Length);
     let mut rows: Vec<(String, String)> =
         theories.into_iter().filter_map(|(name, text)| Some((name.to_owned(), escaped(&text?)))).collect();
-    let exponential = fits.exponential;
-    rows.push((
-        "exponential law of the gap".to_owned(),
-        escaped(&format!(
-            "p = {} exp(−g/{}), rms of ln p {}",
-            format(exponential.pressure, Dimension::Pressure),
-            length(exponential.decay),
-            format_number_digits(exponential.rms, 2)
-        )),
-    ));
+    if let Some(fit) = fits.exponential {
+        rows.push((
+            "exponential law of the gap".to_owned(),
+            escaped(&format!(
+                "p = {} exp(−g/{}), rms of ln p {}",
+                format(fit.pressure, Dimension::Pressure),
+                length(fit.decay),
+                format_number_digits(fit.rms, 2)
+            )),
+        ));
+    }
     if let Some(fit) = fits.greenwood_tripp {
         rows.push((
             "F₅⸝₂ law of the gap".to_owned(),
@@ -160,8 +172,8 @@ fn fits(law: &Law) -> String {
                 "K = {}, σ_s = {}, datum at the mean planes, g/σ from {} to {}, rms of ln p {}; another datum fits with other constants",
                 format_number_digits(fit.factor, 3),
                 length(fit.deviation),
-                format_number_digits(fit.range[0], 3),
-                format_number_digits(fit.range[1], 3),
+                format_number_digits(fit.gap_over_rms_range[0], 3),
+                format_number_digits(fit.gap_over_rms_range[1], 3),
                 format_number_digits(fit.rms, 2)
             )),
         ));
@@ -186,7 +198,7 @@ fn fits(law: &Law) -> String {
 fn about(law: &Law, files: &[String]) -> String {
     let length = |band: Band| {
         let median = format(band.median, Dimension::Length);
-        if law.samples > 1 {
+        if is_band(law, band) {
             format!("{median} ± {}", format(band.half_width(), Dimension::Length))
         } else {
             median

@@ -9,14 +9,24 @@ use asperity_contact::flow::patir_cheng;
 use asperity_contact::reference::rough::peaks_beyond;
 
 /// Constants for programs that have a law of their own.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Coefficients {
-    /// p = p₀ exp(−g/u₀).
-    pub exponential: Exponential,
+    /// Title of the case.
+    pub title: String,
+    /// Version of asperity.
+    pub version: &'static str,
+    /// Number of samples.
+    pub samples: usize,
+    /// Units of the constants.
+    pub units: &'static str,
+    /// p = p₀ exp(−g/u₀); none of a law that does not fall with the gap.
+    pub exponential: Option<Exponential>,
     /// p = K E* F₅⸝₂((g − δ)/σ_s), with δ = 0: the datum is the mean plane of the sum of both surfaces.
     pub greenwood_tripp: Option<GreenwoodTripp>,
-    /// φ = 1 − C exp(−r g/σ), along x and along y; none without a flow.
+    /// φ = 1 − C exp(−r g/σ), along x and along y, with the mean gap g of the flow; none without a flow.
     pub flow: [Option<PatirCheng>; 2],
+    /// Gap g₀ from which the closure is counted, m.
+    pub datum: Metre,
     /// Rms height σ of the sum of both surfaces, m.
     pub rms_height: Metre,
     /// Composite modulus E*, Pa.
@@ -31,7 +41,7 @@ pub struct Exponential {
     /// Length over which the pressure falls by e, m.
     pub decay: Metre,
     /// Range of the pressures, Pa.
-    pub range: [Pascal; 2],
+    pub pressure_range: [Pascal; 2],
     /// Rms of ln p about the law.
     pub rms: f64,
 }
@@ -45,7 +55,7 @@ pub struct GreenwoodTripp {
     /// σ_s, m.
     pub deviation: Metre,
     /// Range of g/σ.
-    pub range: [f64; 2],
+    pub gap_over_rms_range: [f64; 2],
     /// Rms of ln p about the law.
     pub rms: f64,
 }
@@ -58,7 +68,7 @@ pub struct PatirCheng {
     /// r; 0.56 in their own.
     pub rate: f64,
     /// Range of g/σ.
-    pub range: [f64; 2],
+    pub gap_over_rms_range: [f64; 2],
     /// Rms of φ about the law.
     pub rms: f64,
     /// Largest ratio of φ to that of their own fit.
@@ -75,15 +85,22 @@ impl Law {
         let points: Vec<[f64; 2]> = gaps.iter().zip(&self.pressures).map(|(gap, p)| [*gap, p.ln()]).collect();
         let sigma = self.rms_height.median;
         let [slope, start, rms] = line(&points);
-        let range = [self.pressures[0], self.pressures[self.pressures.len() - 1]];
+        let pressure_range = [self.pressures[0], self.pressures[self.pressures.len() - 1]];
         let flow = [Kind::FlowFactorX, Kind::FlowFactorY].map(|kind| {
             let values = self.values(kind, Edge::Median)?;
+            let gaps = self.values(Kind::FlowGap, Edge::Median)?;
             patir_cheng_of(&gaps.iter().map(|gap| gap / sigma).zip(values).collect::<Vec<_>>())
         });
+        let exponential = Exponential { pressure: start.exp(), decay: -slope.recip(), pressure_range, rms };
         Coefficients {
-            exponential: Exponential { pressure: start.exp(), decay: -slope.recip(), range, rms },
+            title: self.title.clone(),
+            version: env!("CARGO_PKG_VERSION"),
+            samples: self.samples,
+            units: "SI: m, Pa",
+            exponential: Some(exponential).filter(|fit| fit.decay > 0.0 && fit.pressure.is_finite()),
             greenwood_tripp: greenwood_tripp_of(&points, self.modulus, sigma),
             flow,
+            datum: self.datum,
             rms_height: sigma,
             modulus: self.modulus,
         }
@@ -126,7 +143,7 @@ fn greenwood_tripp_of(points: &[[f64; 2]], modulus: Pascal, sigma: Metre) -> Opt
     (rms.is_finite() && factor.is_finite()).then_some(GreenwoodTripp {
         factor,
         deviation,
-        range: ends.map(|gap| gap / sigma),
+        gap_over_rms_range: ends.map(|gap| gap / sigma),
         rms,
     })
 }
@@ -148,7 +165,7 @@ fn patir_cheng_of(points: &[(f64, f64)]) -> Option<PatirCheng> {
     Some(PatirCheng {
         factor: start.exp(),
         rate: -slope,
-        range: [ratios.clone().fold(f64::INFINITY, f64::min), ratios.fold(0.0, f64::max)],
+        gap_over_rms_range: [ratios.clone().fold(f64::INFINITY, f64::min), ratios.fold(0.0, f64::max)],
         rms: (square / good.len() as f64).sqrt(),
         over_theirs: over.fold(0.0, f64::max),
     })

@@ -1,10 +1,13 @@
 //! Samples as one law.
 
+use std::path::PathBuf;
+
+use super::doubts::{left_out, of_samples};
 use super::quantities::{Found, Kind, QUANTITIES, along};
 use crate::parametric::{Folder, Study};
 use crate::results::Results;
 use asperity_base::error::{Error, Result};
-use asperity_base::units::{Dimension, Metre, Pascal, format, format_number_digits};
+use asperity_base::units::{Metre, Pascal};
 use asperity_contact::conductance::{ConductanceRecord, Joint};
 use asperity_contact::flow::{FlowRecord, Leakage};
 use asperity_contact::joint::{JointLaw, JointRecord};
@@ -23,17 +26,11 @@ const TAIL: f64 = 100.0;
 /// Points of the continuation, as ratios to the least computed pressure.
 const TAIL_POINTS: [f64; 6] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5];
 
-/// Roll-off wavelength over the correlation length of self-affine surfaces: 2.9 to 3.6 for Hurst exponents of 0.5 to 1, and
-/// down to 2.7 where the shortest wavelength is a quarter of it.
-const ROLLOFF: f64 = 3.1;
+/// Relative step of a closure that is rounding.
+const ROUNDING: f64 = 1e-7;
 
-/// Roll-off wavelengths along a sample from which on it is a law.
-const ENOUGH: f64 = 8.0;
-
-/// Relative error of the roll-off wavelength that is estimated from the correlation length.
-const ROLLOFF_UNCERTAINTY: f64 = 0.15;
-
-/// Relative error of a slope between points that passes as rounding.
+/// Relative error of a slope between points that passes as rounding, and relative step of the pressure that is too short
+/// for a slope.
 const SLACK: f64 = 1e-3;
 
 /// A value over the samples.
@@ -105,18 +102,24 @@ pub struct Law {
     pub theories: Vec<JointRecord>,
     /// Side of a square with the area of a sample.
     pub side: Metre,
-    /// Whether gas conducts in the gap.
-    pub has_gas: bool,
+    /// Share of the gas in the conductance under the least pressure, the median.
+    pub gas_share: f64,
+    /// Whether cells yield, so that the law holds for the first loading alone.
+    pub yields: bool,
+    /// Warnings about its samples, and what it leaves out.
+    pub warnings: Vec<String>,
     /// Its checks.
     pub checks: Checks,
 }
 
 /// The results of a sample, at rising pressures.
 struct Sample {
+    folder: PathBuf,
     points: Vec<SweepRecord>,
     joints: Vec<JointRecord>,
     conductances: Vec<ConductanceRecord>,
     flows: Vec<FlowRecord>,
+    warnings: Vec<String>,
 }
 
 impl Sample {
@@ -124,10 +127,12 @@ impl Sample {
         let mut points = results.sweep()?;
         points.sort_by(|a, b| a.mean_pressure.total_cmp(&b.mean_pressure));
         Ok(Self {
+            folder: results.directory().to_owned(),
             points,
             joints: results.rows::<JointLaw>()?,
             conductances: results.rows::<Joint>()?,
             flows: results.rows::<Leakage>()?,
+            warnings: results.summary()?.warnings,
         })
     }
 
@@ -136,10 +141,16 @@ impl Sample {
         let joint = self.joints.iter().find(|row| row.step == Some(point.point));
         Ok(Found {
             point,
-            joint: joint.ok_or(Error::Unsupported("a sample without the law of its joint"))?,
+            joint: joint.ok_or_else(|| self.damaged())?,
             conductance: self.conductances.iter().find(|row| row.step == Some(point.point)),
             flow: [Axis::X, Axis::Y].map(|axis| along(&self.flows, axis, point.point)),
         })
+    }
+
+    fn damaged(&self) -> Error {
+        let message =
+            "the sample has no complete joint.csv: remove its folder, and run the same command again";
+        Error::File { path: self.folder.clone(), source: std::io::Error::other(message) }
     }
 }
 
@@ -189,6 +200,8 @@ impl Law {
                 "the law of a joint needs at least two different pressures above 0",
             ));
         }
+        let yields = samples.iter().flat_map(|sample| &sample.points).any(yields);
+        let warnings: Vec<Vec<String>> = samples.iter().map(|sample| sample.warnings.clone()).collect();
         let found =
             |index: usize| samples.iter().map(|sample| sample.found(index)).collect::<Result<Vec<_>>>();
         let found = (0..pressures.len()).map(found).collect::<Result<Vec<_>>>()?;
@@ -210,7 +223,8 @@ impl Law {
         let (rms_height, rms_slope) = (of_surfaces(|row| row.rms_height), of_surfaces(|row| row.rms_slope));
         let distance = |n: &usize| (found[0][*n].joint.rms_height - rms_height.median).abs();
         let middle = (0..samples.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
-        let has_gas = first.conductances.first().is_some_and(|row| row.gas_share > 0.0);
+        let gas_share = |found: &Found<'_>| Some(found.conductance?.gas_share);
+        let gas_share = Band::from_values(found[0].iter().filter_map(gas_share).collect());
         let mut law = Self {
             title: study.title().to_owned(),
             samples: samples.len(),
@@ -224,7 +238,9 @@ impl Law {
             datum: 0.0,
             rms_height,
             rms_slope,
-            has_gas,
+            gas_share: gas_share.map_or(0.0, |band| band.median),
+            yields,
+            warnings: left_out(&study.case(1)?, yields).into_iter().chain(of_samples(&warnings)).collect(),
         };
         let edges = [Edge::Low, Edge::Median, Edge::High];
         law.datum =
@@ -268,61 +284,11 @@ impl Law {
     /// Whether pressures and closures of all edges rise from point to point.
     pub fn rises(&self) -> bool {
         let rises = |edge: Edge| {
-            self.closure(edge)
-                .windows(2)
-                .all(|points| points[0][0] < points[1][0] && points[0][1] < points[1][1])
+            self.closure(edge).windows(2).all(|points| {
+                points[0][0] < points[1][0] && points[1][1] - points[0][1] > ROUNDING * points[1][1]
+            })
         };
         [Edge::Low, Edge::Median, Edge::High].into_iter().all(rises)
-    }
-
-    /// Returns reasons not to trust the law.
-    pub fn doubts(&self) -> Vec<String> {
-        let mut doubts = Vec::new();
-        if self.missing > 0 {
-            doubts.push(format!(
-                "{} of {} samples have failed or are not done",
-                self.missing,
-                self.missing + self.samples
-            ));
-        }
-        if self.samples == 1 {
-            doubts.push(
-                "the law is that of one sample, and its scatter is unknown: give `samples = 8` or `patches = [4, 4]` in [joint]".to_owned(),
-            );
-        }
-        let lengths = self.theories.first().and_then(|row| row.correlation_length);
-        let rolloff = ROLLOFF * lengths.unwrap_or(f64::INFINITY);
-        if rolloff > 0.0 && self.side < (1.0 - ROLLOFF_UNCERTAINTY) * ENOUGH * rolloff {
-            let about = if rolloff.is_finite() {
-                format!(
-                    "about {} roll-off wavelengths of {}",
-                    format_number_digits(self.side / rolloff, 2),
-                    format(rolloff, Dimension::Length)
-                )
-            } else {
-                "less than a wave of its roughness".to_owned()
-            };
-            doubts.push(format!(
-                "a sample is only {about} long: it is a curve of its own, and no law; take samples of at least {ENOUGH}, or {} samples of this \
-                 length to halve the uncertainty of their median",
-                4 * self.samples
-            ));
-        }
-        if !self.rises() {
-            doubts.push(
-                "the pressure does not rise with the closure everywhere, and no program takes such a law: compute more samples, or fewer loads"
-                    .to_owned(),
-            );
-        }
-        if self.checks.bracketed < self.checks.steps {
-            doubts.push(format!(
-                "in {} of {} steps between loads the secant stiffness lies outside those at both ends: the loads are too far apart or the \
-                 samples too coarse",
-                self.checks.steps - self.checks.bracketed,
-                self.checks.steps
-            ));
-        }
-        doubts
     }
 
     /// Length over which the pressure falls by e below the least computed one, of the median.
@@ -350,6 +316,10 @@ impl Law {
     }
 }
 
+fn yields(point: &SweepRecord) -> bool {
+    point.plastic_area > 0.0 || point.plastic.is_some_and(|flow| flow.max_plastic_strain > 0.0)
+}
+
 /// Checks each sample by itself.
 fn checks(found: &[Vec<Found<'_>>]) -> Checks {
     let mut checks = Checks::default();
@@ -357,6 +327,9 @@ fn checks(found: &[Vec<Found<'_>>]) -> Checks {
         for (one, next) in pair[0].iter().zip(&pair[1]) {
             let area = one.point.load / one.point.mean_pressure;
             let (Some(before), Some(after)) = (one.point.stiffness, next.point.stiffness) else { continue };
+            if next.point.mean_pressure - one.point.mean_pressure < SLACK * one.point.mean_pressure {
+                continue;
+            }
             let secant = area * (next.point.mean_pressure - one.point.mean_pressure)
                 / (one.point.mean_gap - next.point.mean_gap);
             let (least, most) = (before.min(after), before.max(after));

@@ -12,6 +12,7 @@
 
 mod clients; // files for other programs
 mod coefficients; // constants of other laws that fit it
+mod doubts; // reasons not to trust it
 mod law; // samples as one law
 mod quantities; // what the law is of
 mod samples; // the study of a case

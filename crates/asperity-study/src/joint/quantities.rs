@@ -43,6 +43,8 @@ pub enum Kind {
     ThermalConductance,
     /// Electrical conductance of an area.
     ElectricalConductance,
+    /// Mean gap of the flow over all cells, 0 in contact: without yielding it is that of the mean planes.
+    FlowGap,
     /// Pressure flow factor along x.
     FlowFactorX,
     /// Pressure flow factor along y.
@@ -62,7 +64,7 @@ pub(super) struct Declared {
 }
 
 /// All quantities, in the order of their columns.
-pub(super) const QUANTITIES: [Declared; 11] = [
+pub(super) const QUANTITIES: [Declared; 12] = [
     Declared { kind: Kind::MeanGap, name: "mean_gap", unit: "m", value: |found| Some(found.point.mean_gap) },
     Declared {
         kind: Kind::ContactFraction,
@@ -99,6 +101,12 @@ pub(super) const QUANTITIES: [Declared; 11] = [
         name: "electrical_joint_conductance",
         unit: "S/m²",
         value: |found| found.joint_conductance(Conducts::Electrical),
+    },
+    Declared {
+        kind: Kind::FlowGap,
+        name: "flow_gap",
+        unit: "m",
+        value: |found| Some(found.flow.into_iter().flatten().next()?.mean_gap),
     },
     Declared {
         kind: Kind::FlowFactorX,

@@ -4,10 +4,12 @@ use std::path::Path;
 
 use toml::Value;
 
-use crate::case::{Case, Course, Layer, Source, TopographySpec};
+use super::clients::Client;
+use crate::case::{Case, Course, Layer, Prescribed, Source, TopographySpec};
 use crate::parametric::Study;
 use crate::prepare::samples_in_file;
 use asperity_base::error::Result;
+use asperity_contact::conductance::Joint;
 use asperity_contact::joint::JointLaw;
 use asperity_contact::operator::Boundary;
 use asperity_contact::with::Listed as _;
@@ -18,23 +20,93 @@ pub const MAX_SAMPLES: usize = 10_000;
 /// Seeds of a sample lie this far from those of the sample before, so that no two samples share a surface.
 const STRIDE: u64 = 1_000_003;
 
-/// Makes the study of the samples of a joint from the case file at `path`. Its table `[joint]` says how many there are;
-/// without one, it is a single sample.
+/// Makes the study of the samples of a joint from the case file at `path`, for these programs. Its table `[joint]` says how
+/// many samples there are; without one, it is a single sample.
 ///
 /// # Errors
-/// [`Error::Case`](asperity_base::error::Error::Case) at the key with the mistake: a case without several loads or without surfaces that repeat, samples of
-/// surfaces without seeds, patches that do not fit. The errors of [`Case::load`].
-pub fn samples(path: &Path) -> Result<Study> {
+/// [`Error::Case`](asperity_base::error::Error::Case) at the key with the mistake: a case without several loads or without
+/// surfaces that repeat, samples of surfaces without seeds, patches that do not fit, a gas that a program does not take. The
+/// errors of [`Case::load`].
+pub fn samples(path: &Path, clients: &[Client]) -> Result<Study> {
     let case = Case::load(path)?;
-    let joint = JointLaw::of(&case.with).copied();
+    let joint = JointLaw::of(&case.with).cloned();
+    is_swept(&case)?;
+    let refuse =
+        |key: &str, message: &str, hint: &str| Err(case.error_at(key, message, Some(hint.to_owned())));
+    if joint.as_ref().is_some_and(|joint| joint.every != 1) {
+        let message = "the law of a joint needs each of the loads";
+        return refuse("joint.every", message, "leave `every` out: `asperity run` alone takes it");
+    }
+    if clients.contains(&Client::Calculix) && Joint::of(&case.with).is_some_and(|joint| joint.gas.is_some()) {
+        let message = "CalculiX exchanges no heat between open faces";
+        return refuse("conductance.gas", message, "leave the gas out, or take another program");
+    }
     let at = |key: &str| if joint.is_some() { format!("joint.{key}") } else { "contact".to_owned() };
+    let bodies = [("lower.topography", &case.lower.topography), ("upper.topography", &case.upper.topography)];
+    let measured =
+        || bodies.iter().filter(|(_, topography)| matches!(topography.source, Source::File { .. }));
+    let mut keys = Vec::new();
+    let count = match joint {
+        Some(JointLaw { patches: Some(patches), .. }) => {
+            for (table, topography) in bodies {
+                keys.extend(windows(&case, table, topography, patches)?);
+            }
+            if keys.is_empty() {
+                let message = "patches are cut from measured surfaces: neither body has a file";
+                let hint = "`samples = 8` computes generated surfaces from other seeds";
+                return refuse("joint.patches", message, hint);
+            }
+            patches[0] * patches[1]
+        }
+        Some(JointLaw { ref files, .. }) if !files.is_empty() => {
+            let (Some((table, _)), None) = (measured().next(), measured().nth(1)) else {
+                let message =
+                    "files are samples of the one measured body: this case has none, or two of them";
+                return refuse("joint.files", message, "give `file` in the topography of one of the bodies");
+            };
+            let names = files.iter().map(|file| Value::String(file.to_string_lossy().into_owned()));
+            keys.push((format!("{table}.file"), names.collect()));
+            files.len()
+        }
+        Some(JointLaw { samples, .. }) => samples.unwrap_or(1),
+        None => 1,
+    };
+    if count > MAX_SAMPLES {
+        let message = format!("{count} samples are more than {MAX_SAMPLES}");
+        return Err(case.error_at(&at("patches"), message, None));
+    }
+    if count > 1 && case.contact.sweep().iter().any(|control| matches!(control, Prescribed::Approach(_))) {
+        let message = "samples at the same approaches bear different pressures, and share no law";
+        return refuse("contact", message, "give `mean_pressures` or `loads` in place of `approaches`");
+    }
+    for (table, topography) in bodies {
+        keys.extend(seeds(table, topography, count));
+    }
+    if keys.is_empty() {
+        if count > 1 {
+            let message = "samples need a generated surface: these have no seed";
+            let hint = "cut measured surfaces with `patches = [4, 4]`, or give `files`, in [joint]";
+            return refuse(&at("samples"), message, hint);
+        }
+        // A single sample is the case itself.
+        keys.push(("joint.every".to_owned(), vec![Value::Integer(1)]));
+    }
+    Study::of_cases(path, keys, |table| {
+        let joint = table.entry("joint").or_insert_with(|| Value::Table(toml::Table::new()));
+        if let Value::Table(joint) = joint {
+            ["samples", "patches", "files"].into_iter().for_each(|key| drop(joint.remove(key)));
+        }
+    })
+}
+
+/// Checks that a case has several loads on surfaces that repeat.
+fn is_swept(case: &Case) -> Result<()> {
     let refuse =
         |key: &str, message: &str, hint: &str| Err(case.error_at(key, message, Some(hint.to_owned())));
     if case.contact.boundary != Boundary::PERIODIC {
-        let message = "the law of a joint needs surfaces that repeat along both axes";
         return refuse(
             "contact.boundary",
-            message,
+            "the law of a joint needs surfaces that repeat along both axes",
             "set `boundary = \"periodic\"`: a free boundary counts the bulk of the bodies, too",
         );
     }
@@ -43,58 +115,13 @@ pub fn samples(path: &Path) -> Result<Study> {
         _ => 0,
     };
     if loads < 2 {
-        let message = "the law of a joint needs several loads";
         return refuse(
             "contact",
-            message,
+            "the law of a joint needs several loads",
             "give `mean_pressures = [\"2 MPa\", \"20 MPa\", \"200 MPa\"]`, or a range of them",
         );
     }
-    let (count, patches) = match joint {
-        Some(JointLaw { patches: Some([nx, ny]), .. }) => (nx * ny, Some([nx, ny])),
-        Some(JointLaw { samples: Some(samples), .. }) => (samples, None),
-        _ => (1, None),
-    };
-    if count > MAX_SAMPLES {
-        let message = format!("{count} samples are more than {MAX_SAMPLES}");
-        return Err(case.error_at(&at("patches"), message, None));
-    }
-    let bodies = [("lower", &case.lower.topography), ("upper", &case.upper.topography)];
-    let mut keys = Vec::new();
-    for (name, topography) in bodies {
-        let table = format!("{name}.topography");
-        match patches {
-            Some(patches) => keys.extend(windows(&case, &table, topography, patches)?),
-            None => keys.extend(seeds(&table, topography, count)),
-        }
-    }
-    if keys.is_empty() {
-        if count > 1 && patches.is_none() {
-            let message = "samples need a generated surface: these have no seed";
-            return refuse(
-                &at("samples"),
-                message,
-                "cut measured surfaces with `patches = [4, 4]` in [joint]",
-            );
-        }
-        if patches.is_some() {
-            let message = "patches are cut from measured surfaces: neither body has a file";
-            return refuse(
-                &at("patches"),
-                message,
-                "`samples = 8` computes generated surfaces from other seeds",
-            );
-        }
-        // A single sample is the case itself.
-        keys.push(("joint.every".to_owned(), vec![Value::Integer(1)]));
-    }
-    Study::of_cases(path, keys, |table| {
-        let joint = table.entry("joint").or_insert_with(|| Value::Table(toml::Table::new()));
-        if let Value::Table(joint) = joint {
-            joint.remove("samples");
-            joint.remove("patches");
-        }
-    })
+    Ok(())
 }
 
 /// Returns the keys of the seeds of a topography and of what is added to it, each with its value for each sample. The first

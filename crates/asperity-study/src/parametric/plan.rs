@@ -211,7 +211,7 @@ impl Study {
     }
 
     /// Reads the case from its text, with files relative to the working directory.
-    fn case(&self, case: usize) -> Result<Case> {
+    pub(crate) fn case(&self, case: usize) -> Result<Case> {
         Case::parse(&self.case_file(case, None)?, Path::new("case.toml"), Path::new(""))
     }
 

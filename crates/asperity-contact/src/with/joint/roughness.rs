@@ -1,9 +1,11 @@
 //! The roughness of the gap without load, on which theories are based.
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::reference::rough::greenwood_williamson_pressure;
-use crate::surface::{Axis, Correlation, GreenwoodWilliamson, SpectralMoments, Topography};
+use crate::surface::{Correlation, GreenwoodWilliamson, SpectralMoments, Topography};
 use crate::units::{Metre, Pascal};
 
 /// Moments of the gap of two surfaces that repeat along both axes.
@@ -44,11 +46,9 @@ impl GapRoughness {
         let m4 = 0.375 * curvature / cells;
         let correlation = Correlation::periodic(&topography);
         let m0 = correlation.variance();
-        let falls = |axis: Axis| {
-            let lags = correlation.along(axis).into_iter();
-            lags.skip(1).find(|(_, value)| *value < UNCORRELATED * m0).map(|(lag, _)| lag)
-        };
-        let lengths = [Axis::X, Axis::Y].into_iter().filter_map(falls);
+        let falls =
+            |angle: f64| Some(correlation.decay_length(angle, UNCORRELATED)).filter(|lag| lag.is_finite());
+        let lengths = [0.0, FRAC_PI_2].into_iter().filter_map(falls);
         Ok(Self {
             first_touch_gap: topography.mean() - gap.iter().copied().fold(f64::INFINITY, f64::min),
             moments: SpectralMoments { m0, m2: slope.map(|square| square / cells), m4: [m4; 2] },

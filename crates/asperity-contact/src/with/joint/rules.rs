@@ -37,11 +37,14 @@ pub(super) const RULES: &[Rule<JointLaw>] = &[
     },
     Rule {
         this: "`samples` in [joint]",
-        with: "`patches`",
-        message: "samples are patches of measured surfaces or seeds of generated ones",
-        hint: "leave `samples` or `patches` out",
-        at: "joint.samples",
+        with: "`patches` or `files`, or both of these",
+        message: "samples are seeds of generated surfaces, or patches of measured ones, or files",
+        hint: "give one of `samples`, `patches` and `files`",
+        at: "joint",
         example: &[PERIODIC, "joint = { samples = 4, patches = [2, 2] }"],
-        broken: |joint, _| joint.samples.is_some() && joint.patches.is_some(),
+        broken: |joint, _| {
+            let given = [joint.samples.is_some(), joint.patches.is_some(), !joint.files.is_empty()];
+            given.into_iter().filter(|is_given| *is_given).count() > 1
+        },
     },
 ];

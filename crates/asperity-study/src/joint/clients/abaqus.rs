@@ -25,7 +25,7 @@ pub(super) fn interaction(sheet: &Sheet<'_>) -> String {
         let _ = writeln!(text, "*FRICTION, ELASTIC SLIP={}\n{},", number(slip), number(friction));
     }
     if !sheet.conductance.is_empty() {
-        text += "*GAP CONDUCTANCE, PRESSURE\n0.000000000e+00, 0.000000000e+00\n";
+        text += "*GAP CONDUCTANCE, PRESSURE\n";
         for [pressure, conductance] in &sheet.conductance {
             let _ = writeln!(text, "{}, {}", number(*conductance), number(*pressure));
         }

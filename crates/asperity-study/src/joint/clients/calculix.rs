@@ -8,6 +8,9 @@ use asperity_base::error::{Error, Result};
 /// Lines that CalculiX reads of a table.
 const LINES: usize = 200;
 
+/// Parts of the step between two points at which a conductance is given.
+const PARTS: usize = 4;
+
 /// Beyond its table CalculiX keeps the pressure constant: a last line lies this many times as high, on the last slope.
 const BEYOND: f64 = 10.0;
 
@@ -34,7 +37,7 @@ pub(super) fn cold(sheet: &Sheet<'_>) -> String {
 
 /// The joint with its conductance.
 pub(super) fn heat(sheet: &Sheet<'_>) -> Result<String> {
-    if sheet.law.has_gas {
+    if sheet.law.gas_share > 0.0 {
         return Err(Error::Unsupported(
             "CalculiX exchanges no heat between open faces: leave the gas out of [conductance], or take another program",
         ));
@@ -44,37 +47,52 @@ pub(super) fn heat(sheet: &Sheet<'_>) -> Result<String> {
         "CalculiX takes forces from the last *SURFACE BEHAVIOR, and the pressure of *GAP CONDUCTANCE from the exponential one;",
         "this is how 2.20 is written, and stands in no manual: the lines of *GAP CONDUCTANCE stand at the pressure of the",
         "exponential law at the closure of the point, so that both are right at the points",
-        "The last line goes on to ten times the largest pressure; beyond it the pressure stays constant",
+        "The last lines go on to ten times the largest pressure, where the conductance is in proportion to the pressure;",
+        "beyond them pressure and conductance stay constant",
     ]);
     let points = points(sheet);
     // p₀ exp(c/u₀): c0 = u₀ ln 100.
-    let at = |n: usize| points[n];
-    let (first, last) = (1, points.len() - 2);
-    let decay = (at(last)[1] - at(first)[1]) / (at(last)[0] / at(first)[0]).ln();
-    let start = at(first)[0] * (-at(first)[1] / decay).exp();
+    let (first, last) = (points[1], points[points.len() - 2]);
+    let decay = (last[1] - first[1]) / (last[0] / first[0]).ln();
+    let start = first[0] * (-first[1] / decay).exp();
+    let most = start * (points[points.len() - 1][1] / decay).exp();
+    if !(start.is_normal() && most.is_finite()) {
+        return Err(Error::Unsupported(
+            "CalculiX needs an exponential law beside this one, and none has its pressures at its closures: leave out the least loads, \
+             under which only a few cells bear, or take another program",
+        ));
+    }
     text += "*SURFACE INTERACTION, NAME=JOINT\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=EXPONENTIAL\n";
     let _ = writeln!(text, "{}, {}", number(decay * 100f64.ln()), number(start));
     behavior(&mut text, &points);
     friction(&mut text, sheet);
     text += "*GAP CONDUCTANCE\n";
-    for [pressure, conductance] in conductances(sheet) {
-        let closure = interpolated(&points, pressure);
+    let conductances = conductances(sheet);
+    for pressure in between(&points) {
+        let [closure, conductance] = [&points, &conductances].map(|table| interpolated(table, pressure));
         let _ = writeln!(text, "{}, {}", number(conductance), number(start * (closure / decay).exp()));
     }
     Ok(text)
 }
 
-/// Conductances from the start of the continuation on, in proportion to the pressure there, and beyond the end.
-fn conductances(sheet: &Sheet<'_>) -> Vec<[f64; 2]> {
-    let computed = &sheet.conductance;
-    let (Some(first), Some(last)) = (computed.first(), computed.last()) else { return Vec::new() };
-    let tail =
-        sheet.closure.iter().filter(|[p, _]| *p < first[0]).map(|[p, _]| [*p, first[1] * p / first[0]]);
-    let end = [BEYOND * last[0], BEYOND * last[1]];
-    tail.chain(computed.iter().copied()).chain([end]).collect()
+/// Pressures of the points above 0 and some between: there the conductance is straight in the pressure, and the line of
+/// CalculiX is straight in the exponential law.
+fn between(points: &[[f64; 2]]) -> Vec<f64> {
+    let parts = (LINES / points.len()).clamp(1, PARTS);
+    let pairs = points[1..].windows(2).flat_map(|pair| {
+        let [from, to] = [pair[0][0], pair[1][0]];
+        (0..parts).map(move |part| from * (to / from).powf(part as f64 / parts as f64))
+    });
+    pairs.chain([points[points.len() - 1][0]]).collect()
 }
 
-/// Closure at a pressure, straight between points.
+/// Pressure and conductance from 0 on, and beyond the end in proportion to the pressure.
+fn conductances(sheet: &Sheet<'_>) -> Vec<[f64; 2]> {
+    let end = sheet.conductance.last().map(|last| last.map(|value| BEYOND * value));
+    sheet.conductance.iter().copied().chain(end).collect()
+}
+
+/// Value at a pressure, straight between points.
 fn interpolated(points: &[[f64; 2]], pressure: f64) -> f64 {
     let above = points.iter().position(|[p, _]| *p >= pressure).unwrap_or(points.len() - 1).max(1);
     let ([p0, c0], [p1, c1]) = (points[above - 1], points[above]);

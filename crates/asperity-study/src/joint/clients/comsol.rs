@@ -22,7 +22,7 @@ pub(super) fn conductance(sheet: &Sheet<'_>) -> String {
             "In Thermal Contact: constriction conductance, user defined, as this function of solid.Tn",
         ],
     );
-    rows(head, [[0.0; 2]].into_iter().chain(sheet.conductance.iter().copied()))
+    rows(head, sheet.conductance.iter().copied())
 }
 
 fn rows(mut text: String, rows: impl Iterator<Item = [f64; 2]>) -> String {

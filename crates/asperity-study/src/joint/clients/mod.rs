@@ -14,6 +14,9 @@ use asperity_base::choice::choice;
 use asperity_base::error::{Error, Result};
 use asperity_base::units::{Dimension, format};
 
+/// Most letters of a title in a comment: some programs read no longer lines.
+const MAX_TITLE: usize = 80;
+
 /// A program, or another form of the law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Client {
@@ -67,6 +70,15 @@ pub struct ClientSettings {
     pub friction: Option<f64>,
 }
 
+impl ClientSettings {
+    /// Returns a reason why files are without what is asked for.
+    pub fn doubt(&self, law: &Law) -> Option<String> {
+        let is_unknown = self.friction.is_some() && law.quantity(Kind::StiffnessX).is_none();
+        is_unknown
+            .then(|| "files have no friction: the tangential stiffness of these bodies is unknown".to_owned())
+    }
+}
+
 /// A file for a program.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ClientFile {
@@ -84,7 +96,7 @@ impl Client {
     pub fn files(self, law: &Law, settings: &ClientSettings) -> Result<Vec<ClientFile>> {
         if !law.rises() {
             return Err(Error::Unsupported(
-                "a law whose pressure does not rise with the closure: more samples, or fewer loads",
+                "no program takes a law whose pressure does not rise with the closure; joint.html has its warnings",
             ));
         }
         let sheet = |edge: Edge| Sheet::new(law, edge, settings);
@@ -134,7 +146,7 @@ struct Sheet<'l> {
     settings: ClientSettings,
     /// Pressure and closure, from 0 on.
     closure: Vec<[f64; 2]>,
-    /// Pressure and conductance of an area, where it is known.
+    /// Pressure and conductance of an area, where it is known, from the pressure 0 on.
     conductance: Vec<[f64; 2]>,
 }
 
@@ -145,7 +157,11 @@ impl<'l> Sheet<'l> {
             law.closure(edge).iter().map(|[p, c]| [p * scales.pressure, c * scales.length]).collect();
         let known = law.values(Kind::ThermalConductance, edge).unwrap_or_default();
         let conductance = law.pressures.iter().zip(known).filter(|(_, value)| value.is_finite());
-        let conductance = conductance.map(|(p, h)| [p * scales.pressure, h * scales.conductance]).collect();
+        let conductance: Vec<[f64; 2]> =
+            conductance.map(|(p, h)| [p * scales.pressure, h * scales.conductance]).collect();
+        // Without pressure the gas still conducts.
+        let open = conductance.first().map(|[_, least]| [0.0, law.gas_share * least]);
+        let conductance = open.into_iter().chain(conductance).collect();
         Self { law, edge, settings: *settings, closure, conductance }
     }
 
@@ -192,20 +208,44 @@ impl<'l> Sheet<'l> {
         };
         let datum = format(law.datum, Dimension::Length);
         let lines = [
-            format!("Joint: {}", law.title.replace('\n', " ")),
+            format!("Joint: {}", plain(&law.title)),
             format!("asperity {}: {edge} {samples}", env!("CARGO_PKG_VERSION")),
             format!("Units: {units}"),
             format!(
                 "Closure = {} - mean gap of both surfaces; it holds nothing of the bulk of the bodies",
-                datum.replace('µ', "u")
+                plain(&datum)
             ),
             format!(
                 "Computed from {least} to {most}; below, the pressure falls exponentially to a hundredth, then straight to 0"
             ),
         ];
+        let yields = law.yields.then(|| "Cells yield: the law holds for the first loading alone".to_owned());
+        let conducts = self.conductance.len() - usize::from(!self.conductance.is_empty());
+        let shorter = (0 < conducts && conducts < law.pressures.len()).then(|| {
+            format!("The conductance is known under {conducts} of {} pressures alone", law.pressures.len())
+        });
+        let friction = self.settings.doubt(law);
         let program = program.iter().map(|line| (*line).to_owned());
-        lines.into_iter().chain(program).map(|line| format!("{mark} {line}\n")).collect()
+        lines
+            .into_iter()
+            .chain(yields)
+            .chain(shorter)
+            .chain(friction)
+            .chain(program)
+            .map(|line| format!("{mark} {line}\n"))
+            .collect()
     }
+}
+
+/// Returns a text in one line of plain letters.
+fn plain(text: &str) -> String {
+    let letter = |letter: char| match letter {
+        'µ' => 'u',
+        ' '..='~' => letter,
+        _ if letter.is_whitespace() => ' ',
+        _ => '?',
+    };
+    text.chars().take(MAX_TITLE).map(letter).collect()
 }
 
 /// Factors from SI.
@@ -237,7 +277,13 @@ fn number(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::number;
+    use super::{number, plain};
+
+    #[test]
+    fn titles_are_one_line_of_plain_letters() {
+        assert_eq!(plain("Fläche\n5 µm"), "Fl?che 5 um");
+        assert_eq!(plain(&"a".repeat(300)).len(), 80);
+    }
 
     #[test]
     fn numbers_have_the_digits_that_programs_read() {

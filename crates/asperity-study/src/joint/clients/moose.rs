@@ -15,8 +15,7 @@ pub(super) fn functions(sheet: &Sheet<'_>) -> String {
     let closure: Vec<[f64; 2]> = sheet.closure.iter().map(|[p, c]| [*c, *p]).collect();
     function(&mut text, "joint_pressure", "pressure over closure", &closure);
     if !sheet.conductance.is_empty() {
-        let rows: Vec<[f64; 2]> = [[0.0; 2]].into_iter().chain(sheet.conductance.iter().copied()).collect();
-        function(&mut text, "joint_conductance", "conductance over pressure", &rows);
+        function(&mut text, "joint_conductance", "conductance over pressure", &sheet.conductance);
     }
     text + "[]\n"
 }

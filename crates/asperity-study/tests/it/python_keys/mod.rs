@@ -386,7 +386,8 @@ fn python_type(class: &str, key: &Key) -> String {
             return "Sequence[Quantity]".to_owned();
         }
         ("Viscoelastic", "file") => return "str".to_owned(),
-        ("Fatigue", "passes") => return "Sequence[int]".to_owned(),
+        ("Fatigue", "passes") | ("Joint", "patches") => return "Sequence[int]".to_owned(),
+        ("Joint", "files") => return "Sequence[str]".to_owned(),
         ("Temperature", "bulk") => return "Pair".to_owned(),
         ("Rest", "loads" | "mean_pressures" | "approaches") => return "Sequence[Quantity]".to_owned(),
         ("Common", "boundary") => return "Boundary | Sequence[Boundary]".to_owned(),
