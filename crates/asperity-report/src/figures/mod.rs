@@ -193,7 +193,7 @@ fn gather_on<'a>(
     let points = results.sweep()?;
     if !points.is_empty() {
         let case = results.case()?;
-        sweep::draw(&points, &case, Theories::of(results, &case).as_ref(), &mut sheet)?;
+        sweep::draw(&points, &case, Theories::of(results, &case, &points).as_ref(), &mut sheet)?;
     }
     let case = results.case()?;
     if case.plasticity.is_some() {

@@ -314,3 +314,39 @@ fn is_whole(path: &Path) -> bool {
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     reader.next_frame(&mut pixels).is_ok()
 }
+
+/// Theories of random surfaces stand beside a sweep of rough elastic bodies that repeat, and beside no other.
+#[test]
+fn theories_stand_beside_a_sweep_of_rough_bodies() {
+    let folder = tempfile::tempdir().unwrap();
+    let theories = |boundary: &str, hardness: &str| {
+        let text = format!(
+            r#"
+lower = {{ young = "210 GPa", poisson = 0.3, hardness = {hardness}, topography = {{ generate = "self-affine", shape = [32, 32], pitch = "1 um", sq = "50 nm", hurst = 0.8, rolloff = "8 um", shortest = "4 um" }} }}
+upper = {{ young = "210 GPa", poisson = 0.3, topography = {{ form = "flat" }} }}
+contact = {{ mean_pressures = ["10 MPa", "100 MPa"], boundary = "{boundary}" }}
+"#
+        );
+        let case = Case::parse(&text, Path::new("case.toml"), folder.path()).unwrap();
+        let out = folder.path().join(format!("{boundary}-{hardness}"));
+        study::run(&case, asperity_study::SurfaceInput::default(), &out, Existing::Keep, &()).unwrap();
+        let results = Results::open(&out).unwrap();
+        let points = results.sweep().unwrap();
+        let theories = Theories::of(&results, &case, &points);
+        let curves = of_sweep(&points, &case, theories.as_ref());
+        let area = curves.into_iter().find(|curves| curves.name == "contact_area").unwrap();
+        area.charts.charts[0]
+            .series
+            .iter()
+            .map(|series| (series.name.clone(), series.points.clone()))
+            .collect::<Vec<_>>()
+    };
+    let curves = theories("periodic", "inf");
+    let names: Vec<&str> = curves.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["computed", "Persson", "Bush, Gibson, Thomas"]);
+    // The area grows in proportion to the load, as the theories say, and the ratio of both is 2/π.
+    let ratio = curves[1].1[1][1] / curves[2].1[1][1];
+    assert!((ratio - 2.0 / std::f64::consts::PI).abs() < 0.02, "{ratio}");
+    assert_eq!(theories("free", "inf").len(), 1);
+    assert_eq!(theories("periodic", "\"1 GPa\"").len(), 1);
+}

@@ -22,16 +22,18 @@ type Theory = (&'static str, fn(&Theories, &SweepRecord) -> f64);
 impl Theories {
     /// Returns the theories of rough elastic half-spaces that repeat along both axes; `None` for other bodies, whose surfaces
     /// are not read, and of those whose surfaces cannot be read. The table `[joint]` has theories of its own.
-    pub(crate) fn of(results: &Results, case: &Case) -> Option<Self> {
+    pub(crate) fn of(results: &Results, case: &Case, points: &[SweepRecord]) -> Option<Self> {
         let bodies = [&case.lower, &case.upper];
         let are_rough = bodies.into_iter().any(is_rough)
             && bodies.into_iter().all(|body| is_rough(body) || is_flat(body));
-        let is_plain = case.interface.is_empty() && !case.is_coated() && case.plasticity.is_none();
+        let yields = points.iter().any(|point| point.plastic_area > 0.0) || case.plasticity.is_some();
+        let moves = points.iter().any(|point| point.speed.is_some());
+        let is_plain = case.interface.is_empty() && !case.is_coated() && !yields && !moves;
         let repeats = case.contact.boundary == Boundary::PERIODIC;
         if !(are_rough && is_plain && repeats && JointLaw::of(&case.with).is_none()) {
             return None;
         }
-        let [lower, upper] = results.surfaces_after(0).ok()?;
+        let [lower, upper] = results.static_surfaces().ok()?;
         if lower.grid().shape != upper.grid().shape {
             return None;
         }

@@ -78,7 +78,7 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     }
     // Those over the speed have a section of their own.
     if !found.points.is_empty() && !is_over_speed(found) {
-        let theories = figures::Theories::of(found.results, &found.case);
+        let theories = figures::Theories::of(found.results, &found.case, &found.points);
         html += &curves::html(figures::of_sweep(&found.points, &found.case, theories.as_ref()), charts);
     }
     let last = found.passes.len();

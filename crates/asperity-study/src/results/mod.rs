@@ -274,7 +274,19 @@ impl Results {
     /// # Errors
     /// [`Error::File`].
     pub fn surfaces_after(&self, passes: usize) -> Result<[Topography; 2]> {
-        let fields = self.fields_after(passes)?;
+        Self::surfaces_of(&self.fields_after(passes)?)
+    }
+
+    /// Reads the surfaces of a static contact.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn static_surfaces(&self) -> Result<[Topography; 2]> {
+        Self::surfaces_of(&self.static_fields()?)
+    }
+
+    /// Reads the surfaces from a field file.
+    fn surfaces_of(fields: &Fields) -> Result<[Topography; 2]> {
         let topography = |name| -> Result<Topography> {
             let stored = fields.read(name)?;
             let pitch = [stored.pitch[0], stored.pitch[1]];
