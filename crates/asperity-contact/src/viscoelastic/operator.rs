@@ -15,6 +15,9 @@ use crate::units::{Dimension, Metre, MetrePerSecond};
 use crate::viscoelastic::series::Creep;
 use crate::viscoelastic::table::{ElasticCell, MovingCell};
 
+/// Least cells along the longer axis of a grid that is coarsened.
+const MIN_CELLS: usize = 32;
+
 /// Two bodies in steady sliding: their displacement u = C p in the frame of the contact, which moves along x
 /// over a viscoelastic body.
 ///
@@ -25,16 +28,24 @@ use crate::viscoelastic::table::{ElasticCell, MovingCell};
 ///
 /// L is the elastic half-space of a unit modulus. C is not symmetric; its symmetric part is positive.
 pub struct SteadySliding {
+    pub(super) response: Response,
+    slope: SkewConvolution,
+    field: Field,
+}
+
+/// The displacement of bodies that slide steadily, and its approximate inverse.
+pub(super) struct Response {
     grid: Grid,
     boundary: Boundary,
+    creep: Creep,
     speed: MetrePerSecond,
+    /// Displacement at the offsets −nx < i < nx, 0 ≤ j < ny of a grid that is free along x.
+    table: Option<Field>,
     displacement: SkewConvolution,
-    slope: SkewConvolution,
     preconditioner: SkewConvolution,
     self_influence: f64,
     /// Calls of the displacement and the slope.
     convolutions: f64,
-    field: Field,
 }
 
 impl SteadySliding {
@@ -47,57 +58,148 @@ impl SteadySliding {
     /// periodic along x alone.
     pub fn new(grid: Grid, boundary: Boundary, creep: &Creep, speed: MetrePerSecond) -> Result<Self> {
         check_in(Dimension::Speed, "speed", speed, speed.is_finite(), "a finite speed")?;
-        let kernels = match boundary {
-            Boundary::PERIODIC => Kernels::of_waves(&grid, creep, speed),
+        let (slope, table) = match boundary {
+            Boundary::PERIODIC => (slope_of_waves(&grid, creep, speed), None),
             _ if boundary.repeats(0) => {
                 return Err(Error::Unsupported("steady sliding on a grid that is periodic along x alone"));
             }
-            _ => Kernels::of_cells(&grid, boundary, creep, speed),
+            _ => {
+                let cell = moving_cell(&grid, boundary, creep, speed);
+                (cyclic(&cell.slope, &grid, boundary, speed, speed.signum()), Some(cell.displacement))
+            }
         };
-        let [displacement, slope, preconditioner] =
-            [kernels.displacement, kernels.slope, kernels.preconditioner]
-                .map(|kernel| SkewConvolution::new(Arc::new(kernel), grid.shape));
+        Ok(Self {
+            response: Response::new(grid, boundary, creep, speed, table),
+            slope: SkewConvolution::new(Arc::new(slope), grid.shape),
+            field: grid.zeros(),
+        })
+    }
+
+    /// The grid.
+    pub fn grid(&self) -> &Grid {
+        &self.response.grid
+    }
+
+    /// The boundary.
+    pub fn boundary(&self) -> Boundary {
+        self.response.boundary
+    }
+
+    /// Displacement of a cell per unit pressure on itself, m/Pa.
+    pub fn self_influence(&self) -> f64 {
+        self.response.self_influence
+    }
+
+    /// Number of convolutions so far.
+    pub fn convolutions(&self) -> f64 {
+        self.response.convolutions
+    }
+
+    /// Computes the `displacement` under a `pressure`, m.
+    pub fn displace(&mut self, pressure: &Field, displacement: &mut Field) {
+        self.response.displace(pressure, displacement);
+    }
+
+    /// Computes the drag, `−ΔA Σ p ∂u/∂x` for a motion along +x, > 0 where energy is lost, N. The slope ∂u/∂x
+    /// is its mean over a cell; its operator is odd for elastic bodies, whose drag is 0 but for rounding.
+    pub fn drag(&mut self, pressure: &Field) -> f64 {
+        self.response.convolutions += 1.0;
+        let Self { slope, field, response: Response { grid, speed: direction, .. } } = self;
+        slope.apply(pressure, field);
+        -direction.signum()
+            * grid.cell_area()
+            * pressure.iter().zip(field.iter()).map(|(p, slope)| p * slope).sum::<f64>()
+    }
+}
+
+impl Response {
+    fn new(
+        grid: Grid,
+        boundary: Boundary,
+        creep: &Creep,
+        speed: MetrePerSecond,
+        table: Option<Field>,
+    ) -> Self {
+        let (displacement, preconditioner) = match &table {
+            None => kernels_of_waves(&grid, creep, speed),
+            Some(table) => (
+                cyclic(table, &grid, boundary, speed, 1.0),
+                inverse_of_waves(&grid, boundary.padded(grid.shape), creep, speed),
+            ),
+        };
+        let [displacement, preconditioner] =
+            [displacement, preconditioner].map(|kernel| SkewConvolution::new(Arc::new(kernel), grid.shape));
+        let creep = creep.clone();
+        let (self_influence, convolutions) = (0.0, 0.0);
         let mut this = Self {
             grid,
             boundary,
+            creep,
             speed,
+            table,
             displacement,
-            slope,
             preconditioner,
-            self_influence: 0.0,
-            convolutions: 0.0,
-            field: grid.zeros(),
+            self_influence,
+            convolutions,
         };
         let mut unit = grid.zeros();
         unit[[0, 0]] = 1.0;
         let mut displaced = grid.zeros();
         this.displacement.apply(&unit, &mut displaced);
         this.self_influence = displaced[[0, 0]];
-        Ok(this)
+        this
+    }
+
+    /// Returns the response on a grid of twice the pitch: the mean over four cells under the same pressure on four cells.
+    /// `None` on grids that are small or have an odd side.
+    pub(super) fn coarse(&self) -> Option<Self> {
+        let shape = self.grid.shape;
+        let divides = shape.iter().all(|cells| cells % 2 == 0);
+        if !divides || shape[0].max(shape[1]) < MIN_CELLS {
+            return None;
+        }
+        let pitch = self.grid.pitch.map(|pitch| 2.0 * pitch);
+        let grid = Grid::new(shape.map(|cells| cells / 2), pitch).ok()?;
+        let table = self.table.as_ref().map(|table| self.coarse_table(table, grid.shape));
+        Some(Self::new(grid, self.boundary, &self.creep, self.speed, table))
+    }
+
+    /// Returns the table of a coarse grid: of each pair of cells along an axis two have the offset of the coarse cells, and
+    /// one each lies a cell nearer and farther.
+    fn coarse_table(&self, table: &Field, shape: [usize; 2]) -> Field {
+        const NEIGHBOURS: [(isize, f64); 3] = [(-1, 0.5), (0, 1.0), (1, 0.5)];
+        let [nx, ny] = self.grid.shape.map(|cells| cells as isize);
+        let across = |j: isize| match j.unsigned_abs() {
+            j if self.boundary.repeats(1) && 2 * j > ny as usize => ny as usize - j,
+            j => j,
+        };
+        Field::from_shape_fn([2 * shape[0] - 1, shape[1]], |(row, j)| {
+            let i = 2 * (row as isize - (shape[0] as isize - 1));
+            let terms = NEIGHBOURS.into_iter().flat_map(|along| NEIGHBOURS.map(|other| (along, other)));
+            let value = |((a, u), (b, v)): ((isize, f64), (isize, f64))| {
+                u * v * table[[(i + a + nx - 1) as usize, across(2 * j as isize + b)]]
+            };
+            terms.map(value).sum()
+        })
     }
 
     /// The grid.
-    pub fn grid(&self) -> &Grid {
+    pub(super) fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// The boundary.
-    pub fn boundary(&self) -> Boundary {
-        self.boundary
-    }
-
     /// Displacement of a cell per unit pressure on itself, m/Pa.
-    pub fn self_influence(&self) -> f64 {
+    pub(super) fn self_influence(&self) -> f64 {
         self.self_influence
     }
 
     /// Number of convolutions so far.
-    pub fn convolutions(&self) -> f64 {
+    pub(super) fn convolutions(&self) -> f64 {
         self.convolutions
     }
 
     /// Computes the `displacement` under a `pressure`, m.
-    pub fn displace(&mut self, pressure: &Field, displacement: &mut Field) {
+    pub(super) fn displace(&mut self, pressure: &Field, displacement: &mut Field) {
         self.convolutions += 1.0;
         self.displacement.apply(pressure, displacement);
     }
@@ -106,131 +208,100 @@ impl SteadySliding {
     pub(super) fn precondition(&mut self, displacement: &Field, pressure: &mut Field) {
         self.preconditioner.apply(displacement, pressure);
     }
-
-    /// Computes the drag, `−ΔA Σ p ∂u/∂x` for a motion along +x, > 0 where energy is lost, N. The slope ∂u/∂x
-    /// is its mean over a cell; its operator is odd for elastic bodies, whose drag is 0 but for rounding.
-    pub fn drag(&mut self, pressure: &Field) -> f64 {
-        self.convolutions += 1.0;
-        let Self { slope, field, grid, speed: direction, .. } = self;
-        slope.apply(pressure, field);
-        -direction.signum()
-            * grid.cell_area()
-            * pressure.iter().zip(field.iter()).map(|(p, slope)| p * slope).sum::<f64>()
-    }
 }
 
-/// The kernels of an operator.
-struct Kernels {
-    displacement: SkewKernel,
-    slope: SkewKernel,
-    preconditioner: SkewKernel,
+fn wave(grid: &Grid, [kx, ky]: [usize; 2]) -> [f64; 2] {
+    let [nx, ny] = grid.shape;
+    [angular_frequency(kx, nx, grid.pitch[0]), angular_frequency(ky, ny, grid.pitch[1])]
 }
 
-impl Kernels {
-    /// Creates the kernels of a periodic grid from its harmonics.
-    fn of_waves(grid: &Grid, creep: &Creep, speed: MetrePerSecond) -> Self {
-        let [nx, ny] = grid.shape;
-        let wave = |kx: usize, ky: usize| {
-            [angular_frequency(kx, nx, grid.pitch[0]), angular_frequency(ky, ny, grid.pitch[1])]
-        };
-        let response = |kx, ky| {
-            let [qx, qy] = wave(kx, ky);
-            2.0 / qx.hypot(qy) * creep.complex(-qx * speed)
-        };
-        let zero = |kx: usize, ky: usize| kx == 0 && ky == 0;
-        // The mean of the pressure is preconditioned like the longest wave.
-        let longest = TAU / grid.extent()[0].max(grid.extent()[1]);
-        let mean = Complex64::from(0.5 * longest / creep.relaxed());
-        Self {
-            displacement: SkewKernel::from_transform(grid.shape, |kx, ky| {
-                if zero(kx, ky) { 0.0.into() } else { response(kx, ky) }
-            }),
-            // Only the even part of the shortest wave of an even number of cells is known, and it has no
-            // slope.
-            slope: SkewKernel::from_transform(grid.shape, |kx, ky| {
-                if zero(kx, ky) || 2 * kx == nx {
-                    0.0.into()
-                } else {
-                    Complex64::i() * wave(kx, ky)[0] * response(kx, ky)
-                }
-            }),
-            preconditioner: SkewKernel::from_transform(grid.shape, |kx, ky| {
-                if zero(kx, ky) { mean } else { response(kx, ky).inv() }
-            }),
+fn response_to([qx, qy]: [f64; 2], creep: &Creep, speed: MetrePerSecond) -> Complex64 {
+    2.0 / qx.hypot(qy) * creep.complex(-qx * speed)
+}
+
+/// Displacement of a periodic grid from its harmonics, and its inverse.
+fn kernels_of_waves(grid: &Grid, creep: &Creep, speed: MetrePerSecond) -> (SkewKernel, SkewKernel) {
+    // The mean of the pressure is preconditioned like the longest wave.
+    let longest = TAU / grid.extent()[0].max(grid.extent()[1]);
+    let mean = Complex64::from(0.5 * longest / creep.relaxed());
+    let of = |zero: Complex64, value: &dyn Fn(Complex64) -> Complex64| {
+        SkewKernel::from_transform(grid.shape, |kx, ky| match [kx, ky] {
+            [0, 0] => zero,
+            k => value(response_to(wave(grid, k), creep, speed)),
+        })
+    };
+    (of(0.0.into(), &|response| response), of(mean, &|response| response.inv()))
+}
+
+/// Slope of the displacement of a periodic grid.
+fn slope_of_waves(grid: &Grid, creep: &Creep, speed: MetrePerSecond) -> SkewKernel {
+    // Only the even part of the shortest wave of an even number of cells is known, and it has no slope.
+    SkewKernel::from_transform(grid.shape, |kx, ky| match [kx, ky] {
+        [kx, ky] if kx == 0 && ky == 0 || 2 * kx == grid.shape[0] => 0.0.into(),
+        k => Complex64::i() * wave(grid, k)[0] * response_to(wave(grid, k), creep, speed),
+    })
+}
+
+/// Inverse of the harmonics of a padded grid.
+fn inverse_of_waves(grid: &Grid, padded: [usize; 2], creep: &Creep, speed: MetrePerSecond) -> SkewKernel {
+    SkewKernel::from_transform(padded, |kx, ky| {
+        let [qx, qy] =
+            [[kx, 0], [ky, 1]].map(|[k, axis]| angular_frequency(k, padded[axis], grid.pitch[axis]));
+        match qx.hypot(qy) {
+            0.0 => Complex64::from(FRAC_PI_4 / (grid.shape[0] as f64 * grid.pitch[0]) / creep.relaxed()),
+            q => 0.5 * q / creep.complex(-qx * speed),
         }
-    }
+    })
+}
 
-    /// Creates the kernels of a grid that is free along x from the tables of a cell.
-    fn of_cells(grid: &Grid, boundary: Boundary, creep: &Creep, speed: MetrePerSecond) -> Self {
-        let (pitch, line) = (grid.pitch, boundary.line(grid, boundary.datum(grid)));
-        let columns = grid.shape[1];
-        let near = |x: Metre, across: bool| -> Option<Vec<f64>> {
-            let row = |y: Metre, columns: usize| {
-                if across {
-                    normal_displacements_across(x, y, columns, pitch, 1.0)
-                } else {
-                    (0..columns)
-                        .map(|j| normal_displacement(x, y + j as f64 * pitch[1], pitch, 1.0))
-                        .collect()
-                }
-            };
-            let nearest = |line: Line, j: usize| {
-                line.nearest(j as f64 * pitch[1]).map(|y| row(y, 1)[0]).iter().sum::<f64>()
-            };
-            Some(match line {
-                None => row(0.0, columns),
-                Some(line) => (0..columns).map(|j| nearest(line, j)).collect(),
-            })
-        };
-        let far = |x: Metre, across: bool| Some(line?.beyond_nearest(x, columns, pitch, 1.0, across));
-        let elastic = ElasticCell { near: &near, far: &far };
-        let mut glassy = creep.glassy;
-        let mut decays = Vec::new();
-        for term in &creep.terms {
-            match speed.abs() * term.time {
-                0.0 => glassy += term.compliance,
-                decay => decays.push([term.compliance, decay]),
+/// Tables of a cell on a grid that is free along x.
+fn moving_cell(grid: &Grid, boundary: Boundary, creep: &Creep, speed: MetrePerSecond) -> MovingCell {
+    let (pitch, line) = (grid.pitch, boundary.line(grid, boundary.datum(grid)));
+    let columns = grid.shape[1];
+    let near = |x: Metre, across: bool| -> Option<Vec<f64>> {
+        let row = |y: Metre, columns: usize| {
+            if across {
+                normal_displacements_across(x, y, columns, pitch, 1.0)
+            } else {
+                (0..columns).map(|j| normal_displacement(x, y + j as f64 * pitch[1], pitch, 1.0)).collect()
             }
-        }
-        // Along a periodic axis the offsets beyond half the period are those of the other direction.
-        let mut cell = MovingCell::new(&elastic, grid.shape, grid.pitch[0], glassy, &decays);
-        let least = cell.displacement.iter().copied().fold(f64::INFINITY, f64::min);
-        if boundary.single_period().is_some() && least < 0.0 {
-            cell.displacement -= least;
-        }
-        let padded = boundary.padded(grid.shape);
-        let backwards = speed < 0.0;
-        let sign = if backwards { -1.0 } else { 1.0 };
-        let preconditioner = SkewKernel::from_transform(padded, |kx, ky| {
-            let [qx, qy] =
-                [[kx, 0], [ky, 1]].map(|[k, axis]| angular_frequency(k, padded[axis], grid.pitch[axis]));
-            match qx.hypot(qy) {
-                0.0 => Complex64::from(FRAC_PI_4 / (grid.shape[0] as f64 * grid.pitch[0]) / creep.relaxed()),
-                q => 0.5 * q / creep.complex(-qx * speed),
-            }
-        });
-        Self {
-            displacement: SkewKernel::from_values(&cyclic(
-                &cell.displacement,
-                padded,
-                backwards,
-                1.0,
-                boundary,
-            )),
-            slope: SkewKernel::from_values(&cyclic(&cell.slope, padded, backwards, sign, boundary)),
-            preconditioner,
+        };
+        let nearest = |line: Line, j: usize| {
+            line.nearest(j as f64 * pitch[1]).map(|y| row(y, 1)[0]).iter().sum::<f64>()
+        };
+        Some(match line {
+            None => row(0.0, columns),
+            Some(line) => (0..columns).map(|j| nearest(line, j)).collect(),
+        })
+    };
+    let far = |x: Metre, across: bool| Some(line?.beyond_nearest(x, columns, pitch, 1.0, across));
+    let elastic = ElasticCell { near: &near, far: &far };
+    let mut glassy = creep.glassy;
+    let mut decays = Vec::new();
+    for term in &creep.terms {
+        match speed.abs() * term.time {
+            0.0 => glassy += term.compliance,
+            decay => decays.push([term.compliance, decay]),
         }
     }
+    // Along a periodic axis the offsets beyond half the period are those of the other direction.
+    let mut cell = MovingCell::new(&elastic, grid.shape, grid.pitch[0], glassy, &decays);
+    let least = cell.displacement.iter().copied().fold(f64::INFINITY, f64::min);
+    if boundary.single_period().is_some() && least < 0.0 {
+        cell.displacement -= least;
+    }
+    cell
 }
 
-/// Puts a table at the offsets −nx < i < nx, 0 ≤ j < ny on a cyclic grid; mirrored along x, and times a
-/// factor, for a contact that moves `backwards`.
-fn cyclic(table: &Field, padded: [usize; 2], backwards: bool, factor: f64, boundary: Boundary) -> Field {
+/// Puts a table at the offsets −nx < i < nx, 0 ≤ j < ny on a cyclic grid, times a factor; mirrored along x for a contact that
+/// moves backwards.
+fn cyclic(table: &Field, grid: &Grid, boundary: Boundary, speed: MetrePerSecond, factor: f64) -> SkewKernel {
+    let padded = boundary.padded(grid.shape);
     let nx = table.nrows().div_ceil(2);
     let mut values = Field::zeros(padded);
     for ((row, j), value) in table.indexed_iter() {
         let i = row as isize - (nx as isize - 1);
-        let i = (if backwards { -i } else { i }).rem_euclid(padded[0] as isize) as usize;
+        let i = (if speed < 0.0 { -i } else { i }).rem_euclid(padded[0] as isize) as usize;
         if boundary.repeats(1) && j > padded[1] / 2 {
             continue;
         }
@@ -239,5 +310,5 @@ fn cyclic(table: &Field, padded: [usize; 2], backwards: bool, factor: f64, bound
             values[[i, padded[1] - j]] = factor * value;
         }
     }
-    values
+    SkewKernel::from_values(&values)
 }

@@ -5,7 +5,7 @@ use crate::grid::{Field, in_rows};
 use crate::math::gmres;
 use crate::solver::{Bounds, Control, Params, Residual, Solution, Stats, Watch, residual};
 use crate::units::{Dimension, Newton};
-use crate::viscoelastic::operator::SteadySliding;
+use crate::viscoelastic::operator::{self, SteadySliding};
 use asperity_base::math::active_set::offset_for_sum;
 
 /// Residual below which the predicted sets are nearly right: all cells on the wrong side change sides, or one
@@ -15,6 +15,8 @@ const NEAR: f64 = 3e-2;
 const PATIENCE: usize = 4;
 /// Rounds without progress after which cells change sides one by one wherever the solution is.
 const MAX_STALLED: usize = 12;
+/// Residual of a contact on a coarse grid, which is a start on the next one.
+const COARSE_TOLERANCE: f64 = 1e-3;
 /// Most rounds.
 const MAX_ROUNDS: usize = 400;
 /// Most products of a round.
@@ -74,7 +76,42 @@ pub fn solve_steady(
     }
     let before = operator.convolutions();
     let (initial_gap, start) = (&*in_rows(initial_gap), start.map(in_rows));
-    let mut rounds = Rounds::new(operator, initial_gap, control, start.as_deref());
+    let found = contact(&mut operator.response, initial_gap, control, start.as_deref(), params, watch)?;
+    let drag = operator.drag(&found.pressure);
+    let convolutions = found.convolutions + operator.convolutions() - before;
+    let solution = Solution {
+        grid,
+        initial_gap: initial_gap.clone(),
+        bounds: Bounds::ELASTIC,
+        pressure: found.pressure,
+        displacement: found.displacement,
+        approach: found.residual.approach,
+        residual: found.residual.eta,
+        stats: Stats { iterations: found.iterations, convolutions, ..Stats::default() },
+    };
+    Ok(SteadyContact { solution, drag })
+}
+
+/// A contact on one of the grids.
+struct Found {
+    pressure: Field,
+    displacement: Field,
+    residual: Residual,
+    iterations: usize,
+    /// Convolutions on coarser grids, in those of this one.
+    convolutions: f64,
+}
+
+fn contact(
+    response: &mut operator::Response,
+    gap: &Field,
+    control: Control,
+    start: Option<&Field>,
+    params: &Params,
+    watch: &dyn Watch,
+) -> Result<Found> {
+    let mut rounds = Rounds::new(response, gap, control, start);
+    let convolutions = rounds.guess(params, watch)?;
     rounds.solve(params, watch)?;
     let residual = rounds.finish();
     let Rounds { pressure, displacement, done: iterations, .. } = rounds;
@@ -82,24 +119,12 @@ pub fn solve_steady(
         let (residual, tolerance) = (residual.eta, params.tolerance);
         return Err(Error::NotConverged { iterations, residual, tolerance });
     }
-    let drag = operator.drag(&pressure);
-    let stats = Stats { iterations, convolutions: operator.convolutions() - before, ..Stats::default() };
-    let solution = Solution {
-        grid,
-        initial_gap: initial_gap.clone(),
-        bounds: Bounds::ELASTIC,
-        pressure,
-        displacement,
-        approach: residual.approach,
-        residual: residual.eta,
-        stats,
-    };
-    Ok(SteadyContact { solution, drag })
+    Ok(Found { pressure, displacement, residual, iterations, convolutions })
 }
 
 /// The present pressure and displacement, and the rounds so far.
 struct Rounds<'a> {
-    operator: &'a mut SteadySliding,
+    operator: &'a mut operator::Response,
     gap: &'a Field,
     control: Control,
     pressure: Field,
@@ -118,7 +143,12 @@ struct Sets {
 }
 
 impl<'a> Rounds<'a> {
-    fn new(operator: &'a mut SteadySliding, gap: &'a Field, control: Control, start: Option<&Field>) -> Self {
+    fn new(
+        operator: &'a mut operator::Response,
+        gap: &'a Field,
+        control: Control,
+        start: Option<&Field>,
+    ) -> Self {
         let zeros = || Field::zeros(gap.raw_dim());
         let scratch = [zeros(), zeros()];
         let (pressure, displacement) = (zeros(), zeros());
@@ -131,6 +161,32 @@ impl<'a> Rounds<'a> {
         this.rescale();
         this.displace();
         this
+    }
+
+    /// Far from the solution, starts from that on a grid of twice the pitch, if it is found. Returns what it cost in
+    /// convolutions of this grid.
+    fn guess(&mut self, params: &Params, watch: &dyn Watch) -> Result<f64> {
+        if self.residual().eta <= NEAR {
+            return Ok(0.0);
+        }
+        let Some(mut coarse) = self.operator.coarse() else { return Ok(0.0) };
+        let halved = |field: &Field| {
+            let means = field.exact_chunks((2, 2)).into_iter().map(|cells| 0.25 * cells.sum());
+            Field::from_shape_vec(coarse.grid().shape, means.collect()).expect("four cells in each")
+        };
+        let (gap, start) = (halved(self.gap), halved(&self.pressure));
+        let params = params.with_tolerance(params.tolerance.max(COARSE_TOLERANCE));
+        match contact(&mut coarse, &gap, self.control, Some(&start), &params, watch) {
+            Ok(Found { pressure, convolutions, .. }) => {
+                let cells = self.pressure.indexed_iter_mut();
+                cells.for_each(|((i, j), p)| *p = pressure[(i / 2, j / 2)]);
+                self.rescale();
+                self.displace();
+                Ok(0.25 * (convolutions + coarse.convolutions()))
+            }
+            Err(Error::Interrupted) => Err(Error::Interrupted),
+            Err(_) => Ok(0.0),
+        }
     }
 
     /// Returns Σ p under a load.
@@ -260,7 +316,7 @@ impl<'a> Rounds<'a> {
         let reduction =
             (wanted.max(0.3 * tolerance) * residual.scale / largest).clamp(REDUCTION[0], REDUCTION[1]);
         let under_load = self.sum().is_some();
-        let mut response = Response::of(self.operator, &cells, &mut self.scratch, under_load);
+        let mut response = OnCells::of(self.operator, &cells, &mut self.scratch, under_load);
         let product = |x: &[f64]| {
             let z = response.precondition(x);
             let mut y = response.displace(&z);
@@ -318,8 +374,8 @@ impl<'a> Rounds<'a> {
 }
 
 /// Response of the bodies to pressures on some cells alone.
-struct Response<'a> {
-    operator: &'a mut SteadySliding,
+struct OnCells<'a> {
+    operator: &'a mut operator::Response,
     cells: &'a [usize],
     /// The last field that was convolved, and its image.
     fields: &'a mut [Field; 2],
@@ -327,9 +383,9 @@ struct Response<'a> {
     one: Option<(Vec<f64>, f64)>,
 }
 
-impl<'a> Response<'a> {
+impl<'a> OnCells<'a> {
     fn of(
-        operator: &'a mut SteadySliding,
+        operator: &'a mut operator::Response,
         cells: &'a [usize],
         fields: &'a mut [Field; 2],
         under_load: bool,
@@ -345,13 +401,13 @@ impl<'a> Response<'a> {
 
     /// Returns the displacement under a pressure.
     fn displace(&mut self, pressure: &[f64]) -> Vec<f64> {
-        self.image(pressure, SteadySliding::displace)
+        self.image(pressure, operator::Response::displace)
     }
 
     /// Returns an approximate pressure under a displacement; one that bears nothing in sum, where the load is
     /// given.
     fn precondition(&mut self, displacement: &[f64]) -> Vec<f64> {
-        let mut pressure = self.image(displacement, SteadySliding::precondition);
+        let mut pressure = self.image(displacement, operator::Response::precondition);
         if let Some((one, sum)) = &self.one {
             let share = pressure.iter().sum::<f64>() / sum;
             pressure.iter_mut().zip(one).for_each(|(p, one)| *p -= share * one);
@@ -359,7 +415,11 @@ impl<'a> Response<'a> {
         pressure
     }
 
-    fn image(&mut self, values: &[f64], convolve: fn(&mut SteadySliding, &Field, &mut Field)) -> Vec<f64> {
+    fn image(
+        &mut self,
+        values: &[f64],
+        convolve: fn(&mut operator::Response, &Field, &mut Field),
+    ) -> Vec<f64> {
         let Self { operator, cells, fields: [field, image], .. } = self;
         field.fill(0.0);
         let all = field.as_slice_mut().expect("standard layout");

@@ -213,3 +213,24 @@ fn the_drag_is_the_power_of_the_stepped_pressure_on_every_grid() {
         }
     }
 }
+
+/// On a grid of twice the pitch the displacement is the mean of that of four cells under the same pressure.
+#[test]
+fn a_coarse_response_is_the_mean_of_four_cells() {
+    let grid = Grid::new([32, 12], [1.0, 1.5]).unwrap();
+    for boundary in [Boundary::FREE, Boundary([Edge::Free, Edge::Periodic])] {
+        for speed in [0.0, 3.0, -0.7] {
+            let mut operator = SteadySliding::new(grid, boundary, &standard(5.0).creep(), speed).unwrap();
+            let mut coarse = operator.response.coarse().unwrap();
+            let rough = Field::from_shape_fn([16, 6], |(i, j)| ((7 * i * i + 3 * j) % 11) as f64);
+            let fine = Field::from_shape_fn(grid.shape, |(i, j)| rough[(i / 2, j / 2)]);
+            let (mut mean, mut all) = (Field::zeros([16, 6]), grid.zeros());
+            coarse.displace(&rough, &mut mean);
+            operator.displace(&fine, &mut all);
+            let largest = mean.iter().fold(0.0f64, |most, u| most.max(u.abs()));
+            for (u, cells) in mean.iter().zip(all.exact_chunks((2, 2))) {
+                assert!((u - 0.25 * cells.sum()).abs() < 1e-12 * largest, "{boundary:?} {speed}");
+            }
+        }
+    }
+}
