@@ -28,6 +28,9 @@ const MAX_STALLED_TRIALS: usize = 3;
 /// Relative change of the load between two trials below which their slope is noise, in the larger of their
 /// residuals.
 const SLOPE_UNCERTAINTY: f64 = 0.02;
+/// Residual of a rough trial, as a fraction of the error of the load before it. A larger one may be met by the
+/// contacts before, whose load tells nothing.
+const TRIAL_PROGRESS: f64 = 0.1;
 /// Relative error of the slope of a guess.
 const GUESS_SLOPE_ERROR: f64 = 0.015;
 /// Relative error of the slope between two trials, as a multiple of the error of the load in the first of
@@ -160,7 +163,7 @@ impl Search {
             }
             stalled = if excess.abs() < 0.5 * least_excess { 0 } else { stalled + 1 };
             least_excess = least_excess.min(excess.abs());
-            let rough = self.residual_for(excess.abs(), slope_error * excess.abs());
+            let rough = self.residual_for(TRIAL_PROGRESS * excess.abs(), slope_error * excess.abs());
             let wanted = if rough_misled { self.residual } else { rough };
             let newton = approach - logarithm / slope;
             (approach, residual) = match bracket.bound_passed(newton) {
@@ -174,7 +177,8 @@ impl Search {
         Err(Error::LoadNotReached { load: self.load, below, trials: MAX_TRIALS, approach })
     }
 
-    /// Returns the residual for a trial after a load with this `error`, if this is `expected` of the trial.
+    /// Returns the residual for a trial: as large as an `error`, unless the load that is `expected` of it has an error
+    /// within the tolerance.
     ///
     /// The mean load is about a thousand times more accurate than the residual. A trial that is expected to
     /// be within the tolerance is treated as the last.
