@@ -115,11 +115,11 @@ impl Watch for Listener {
         let Progress { pass, passes, trial, solved, positions, load, together, .. } = *progress;
         let load = format(load, Dimension::Force);
         if self.step == "pass" {
-            let part = together.unwrap_or(solved as f64 / positions as f64);
+            let part = solved as f64 / positions as f64;
             self.progress(((pass - 1) as f64 + part) / passes as f64, || match together {
                 Some(way) => {
                     format!(
-                        "pass {pass}/{passes}, all {positions} positions together, {:.0} %, load {load}",
+                        "pass {pass}/{passes}, sample of {positions} positions, {:.0} %, load {load}",
                         100.0 * way
                     )
                 }

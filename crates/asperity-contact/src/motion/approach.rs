@@ -5,7 +5,7 @@ use crate::motion::warm_start::Guess;
 use crate::units::{Metre, Newton};
 
 /// Largest residual η of a rough solution of the positions of a trial.
-pub(super) const MAX_RESIDUAL: f64 = 0.1;
+pub(super) const MAX_RESIDUAL: f64 = 0.03;
 /// Number of approaches tried before the search gives up.
 const MAX_TRIALS: usize = 100;
 
@@ -25,8 +25,16 @@ const MAX_UNCERTAIN_TRIALS: usize = 8;
 /// Number of successive trials that do not halve the least error of the load, after which the bracket is
 /// bisected: the secant then crosses a jump.
 const MAX_STALLED_TRIALS: usize = 3;
-/// Relative error of the load after a secant step, as a multiple of the product of the errors of the two
-/// trials before it.
+/// Relative change of the load between two trials below which their slope is noise, in the larger of their
+/// residuals.
+const SLOPE_UNCERTAINTY: f64 = 0.02;
+/// Residual of a rough trial, as a fraction of the error of the load before it. A larger one may be met by the
+/// contacts before, whose load tells nothing.
+const TRIAL_PROGRESS: f64 = 0.1;
+/// Relative error of the slope of a guess.
+const GUESS_SLOPE_ERROR: f64 = 0.015;
+/// Relative error of the slope between two trials, as a multiple of the error of the load in the first of
+/// them.
 const SECANT_ERROR: f64 = 4.0;
 
 /// A search for the approach with a given mean load.
@@ -69,25 +77,27 @@ pub(super) struct AcceptedTrial<T> {
 impl Search {
     /// Tries approaches by a bracketed secant iteration on ln W(δ).
     ///
-    /// `trial(δ, η)` returns the mean load at an approach, from positions solved to the residual η; the first
-    /// trial is solved to `residual`. Far from the load a rough solution is enough to find the next approach.
-    /// Only the last trial is solved to the required residual.
+    /// `trial(δ, η)` returns the mean load at an approach, from positions solved to the residual η. Far from
+    /// the load a rough solution is enough to find the next approach. A trial that is expected to meet the
+    /// load is solved to the required residual.
     pub(super) fn run<T>(
         &self,
         first: Guess,
-        mut residual: f64,
         mut trial: impl FnMut(Metre, f64) -> Result<(Newton, T)>,
     ) -> Result<AcceptedTrial<T>> {
-        let Guess { mut approach, mut slope } = first;
+        let Guess { mut approach, mut slope, .. } = first;
         approach = approach.min(self.limit.approach);
+        let mut residual = self.residual_for(first.error, first.error);
+        let (mut slope_error, mut first_error) = (GUESS_SLOPE_ERROR, None);
         let (mut was_rough, mut rough_misled) = (false, false);
         let mut bracket = Bracket::beyond(self.touch);
-        let mut before: Option<(Metre, f64)> = None;
-        let (mut excess_before, mut below, mut uncertain) = (1.0, 0.0f64, 0);
+        let mut before: Option<(Metre, f64, f64)> = None;
+        let (mut below, mut uncertain) = (0.0f64, 0);
         let (mut least_excess, mut stalled) = (f64::INFINITY, 0);
         for trials in 1..=MAX_TRIALS {
             let (load, outcome) = trial(approach, residual)?;
             let excess = load / self.load - 1.0;
+            let error = *first_error.get_or_insert(excess.abs());
             if excess < 0.0 {
                 below = below.max(load);
             }
@@ -131,24 +141,30 @@ impl Search {
                     return Err(Error::LoadNotReached { load: self.load, below, trials, approach });
                 }
                 // The slope of a jump, on which a bracket closes, is useless.
-                let slope = if exhausted { first.slope } else { slope };
-                return Ok(AcceptedTrial { outcome, guess: Guess { approach, slope }, trials });
+                let (approach, slope) = match exhausted || at_limit {
+                    true => (approach, first.slope),
+                    false => (approach - (load / self.load).ln() / slope, slope),
+                };
+                let guess = Guess { error, ..Guess::new(approach, slope) };
+                return Ok(AcceptedTrial { outcome, guess, trials });
             }
             let logarithm = (load / self.load).ln();
-            if let Some((other, value)) = before {
+            if let Some((other, value, roughness)) = before {
                 let change = logarithm - value;
                 let secant = change / (approach - other);
                 // The slope of a change within the uncertainty is noise.
-                if secant.is_finite() && secant > 0.0 && change.abs() > UNCERTAINTY * self.residual {
-                    slope = secant;
+                let uncertainty = SLOPE_UNCERTAINTY * f64::max(residual, roughness);
+                if secant.is_finite() && secant > 0.0 && change.abs() > uncertainty {
+                    (slope, slope_error) = (secant, SECANT_ERROR * value.abs());
                 }
             }
             if logarithm.is_finite() {
-                before = Some((approach, logarithm));
+                before = Some((approach, logarithm, residual));
             }
             stalled = if excess.abs() < 0.5 * least_excess { 0 } else { stalled + 1 };
             least_excess = least_excess.min(excess.abs());
-            let wanted = if rough_misled { self.residual } else { self.residual_for(excess, excess_before) };
+            let rough = self.residual_for(TRIAL_PROGRESS * excess.abs(), slope_error * excess.abs());
+            let wanted = if rough_misled { self.residual } else { rough };
             let newton = approach - logarithm / slope;
             (approach, residual) = match bracket.bound_passed(newton) {
                 None if stalled < MAX_STALLED_TRIALS || bracket.middle().is_none() => (newton, wanted),
@@ -157,21 +173,20 @@ impl Search {
                 _ => (bracket.middle().unwrap_or(approach + 1.0 / slope), wanted),
             };
             approach = approach.min(self.limit.approach);
-            excess_before = excess;
         }
         Err(Error::LoadNotReached { load: self.load, below, trials: MAX_TRIALS, approach })
     }
 
-    /// Returns the residual for the next trial after two trials with these errors of the load.
+    /// Returns the residual for a trial: as large as an `error`, unless the load that is `expected` of it has an error
+    /// within the tolerance.
     ///
-    /// The mean load is about a thousand times more accurate than the residual. The next trial is expected to
-    /// have an error of a few times the product of the last two. If that is within the tolerance, the trial
-    /// is treated as the last.
-    fn residual_for(&self, excess: f64, before: f64) -> f64 {
-        if SECANT_ERROR * (excess * before).abs() <= self.tolerance {
+    /// The mean load is about a thousand times more accurate than the residual. A trial that is expected to
+    /// be within the tolerance is treated as the last.
+    fn residual_for(&self, error: f64, expected: f64) -> f64 {
+        if expected <= self.tolerance {
             return self.residual;
         }
-        excess.abs().clamp(self.residual, self.roughest.max(self.residual))
+        error.clamp(self.residual, self.roughest.max(self.residual))
     }
 }
 
@@ -266,9 +281,7 @@ mod tests {
 
     #[test]
     fn it_finds_the_load_of_a_hertzian_curve_in_a_few_trials() {
-        let found = search(1e-12)
-            .run(Guess { approach: 0.3, slope: 2.0 }, MAX_RESIDUAL, |delta, eta| Ok((delta.powf(1.5), eta)))
-            .unwrap();
+        let found = search(1e-12).run(Guess::new(0.3, 2.0), |delta, eta| Ok((delta.powf(1.5), eta))).unwrap();
         assert!((found.guess.approach - 2f64.powf(2.0 / 3.0)).abs() < 1e-11);
         assert_eq!(found.outcome, 1e-6, "the last trial is solved to the wanted residual");
         assert!(found.trials <= 10, "{} trials", found.trials);
@@ -277,17 +290,14 @@ mod tests {
     #[test]
     fn it_finds_its_way_from_no_contact_and_over_a_kink() {
         let curve = |delta: f64| (delta - 1.0).max(0.0) + 20.0 * (delta - 2.5).max(0.0);
-        let found = search(1e-9)
-            .run(Guess { approach: 0.1, slope: 3.0 }, MAX_RESIDUAL, |delta, _| Ok((curve(delta), ())))
-            .unwrap();
+        let found = search(1e-9).run(Guess::new(0.1, 3.0), |delta, _| Ok((curve(delta), ()))).unwrap();
         assert!((curve(found.guess.approach) - 2.0).abs() < 1e-8);
     }
 
     #[test]
     fn a_load_that_the_curve_jumps_over_is_not_reached() {
         let curve = |delta: f64| if delta < 1.0 { 1.0 + 0.1 * delta } else { 3.0 + delta };
-        let found = search(1e-4)
-            .run(Guess { approach: 0.5, slope: 2.0 }, MAX_RESIDUAL, |delta, _| Ok((curve(delta), ())));
+        let found = search(1e-4).run(Guess::new(0.5, 2.0), |delta, _| Ok((curve(delta), ())));
         match found.map(|found| found.guess) {
             Err(Error::LoadNotReached { load, approach, .. }) => {
                 assert_eq!(load, 2.0);
@@ -300,8 +310,8 @@ mod tests {
     #[test]
     fn a_load_beyond_the_most_there_is_names_it() {
         let curve = |delta: f64| 1.5 * (1.0 - (-delta).exp());
-        let first = Guess { approach: 0.5, slope: 2.0 };
-        let found = limited(1e-4, 8.0).run(first, MAX_RESIDUAL, |delta, _| Ok((curve(delta), ())));
+        let first = Guess::new(0.5, 2.0);
+        let found = limited(1e-4, 8.0).run(first, |delta, _| Ok((curve(delta), ())));
         match found.map(|found| found.guess) {
             Err(Error::BeyondPass { load, most, approach, cause: LoadLimit::Yielded }) => {
                 assert_eq!((load, most, approach), (2.0, curve(8.0), 8.0));
@@ -310,8 +320,15 @@ mod tests {
         }
         // A load just below the limit is found.
         let found = Search { load: 1.499, ..limited(1e-6, 8.0) };
-        let found = found.run(first, MAX_RESIDUAL, |delta, _| Ok((curve(delta), ()))).unwrap();
+        let found = found.run(first, |delta, _| Ok((curve(delta), ()))).unwrap();
         assert!((curve(found.guess.approach) / 1.499 - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_guess_that_is_much_too_steep_is_corrected_by_the_first_trials() {
+        let first = Guess { error: 0.0, ..Guess::new(2f64.powf(2.0 / 3.0) * (1.0 + 1e-4), 10.0) };
+        let found = search(1e-9).run(first, |delta, _| Ok((delta.powf(1.5), ()))).unwrap();
+        assert!(found.trials <= 5, "{} trials", found.trials);
     }
 
     #[test]
@@ -319,7 +336,7 @@ mod tests {
         // The rough load is twice too large below 1.2, and half the true load above.
         let rough = |delta: f64| if delta < 1.2 { 2.0 * delta } else { 0.5 * delta };
         let trial = |delta: f64, eta: f64| Ok((if eta > 1e-6 { rough(delta) } else { delta }, ()));
-        let found = search(1e-6).run(Guess { approach: 1.1, slope: 2.0 }, MAX_RESIDUAL, trial).unwrap();
+        let found = search(1e-6).run(Guess::new(1.1, 2.0), trial).unwrap();
         assert!((found.guess.approach - 2.0).abs() < 1e-5, "{:?}", found.guess);
     }
 
@@ -331,7 +348,7 @@ mod tests {
             let short = if eta > 1e-6 && delta > 2.0 { 0.01 } else { 0.0 };
             Ok((delta * (1.0 - short), ()))
         };
-        let found = search(1e-4).run(Guess { approach: 2.016, slope: 0.5 }, 1e-2, trial).unwrap();
+        let found = search(1e-4).run(Guess::new(2.016, 0.5), trial).unwrap();
         assert!((found.guess.approach - 2.0).abs() < 3e-4, "{:?}", found.guess);
         assert!(found.trials < 10, "{} trials", found.trials);
     }
@@ -340,8 +357,8 @@ mod tests {
     fn a_bracket_that_closes_on_a_jump_hands_on_no_slope_of_it() {
         // The load jumps at 2 to the required load, within the error accepted from an exhausted bracket.
         let curve = |delta: f64| if delta < 2.0 { 0.9 * delta } else { delta + 1e-4 };
-        let first = Guess { approach: 1.9, slope: 0.5 };
-        let found = search(1e-9).run(first, 1e-6, |delta, _| Ok((curve(delta), ()))).unwrap();
+        let first = Guess::new(1.9, 0.5);
+        let found = search(1e-9).run(first, |delta, _| Ok((curve(delta), ()))).unwrap();
         assert_eq!(found.guess.slope, first.slope, "{:?}", found.guess);
     }
 
@@ -350,15 +367,15 @@ mod tests {
         // The load has an error of a part of the residual that varies from approach to approach.
         let uncertain = |delta: f64| 5e-5 * (1e15 * delta).sin();
         let trial = |delta: f64, _| Ok((delta.powf(1.5) * (1.0 + uncertain(delta)), ()));
-        let first = Guess { approach: 0.3, slope: 2.0 };
-        let found = Search { residual: 1e-3, ..search(1e-9) }.run(first, MAX_RESIDUAL, trial).unwrap();
+        let first = Guess::new(0.3, 2.0);
+        let found = Search { residual: 1e-3, ..search(1e-9) }.run(first, trial).unwrap();
         assert!((found.guess.approach.powf(1.5) / 2.0 - 1.0).abs() < 2e-4, "{:?}", found.guess);
         assert!(found.trials < 30, "{} trials", found.trials);
     }
 
     #[test]
     fn a_load_that_is_never_there_is_given_up() {
-        let found = search(1e-4).run(Guess { approach: 0.5, slope: 2.0 }, MAX_RESIDUAL, |_, _| Ok((1.0, ())));
+        let found = search(1e-4).run(Guess::new(0.5, 2.0), |_, _| Ok((1.0, ())));
         let error = found.map(|found| found.guess).unwrap_err();
         assert!(matches!(error, Error::LoadNotReached { trials: MAX_TRIALS, .. }), "{error:?}");
     }

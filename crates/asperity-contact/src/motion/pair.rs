@@ -325,6 +325,12 @@ impl Pair {
         self.pitch[0] * self.pitch[1]
     }
 
+    /// Length over which the load changes by a factor of about e, for a first guess: a tenth of the roughness.
+    pub(super) fn height_scale(&self) -> Metre {
+        let roughness = self.lower.heights.std(0.0).hypot(self.upper.heights.std(0.0));
+        if roughness > 0.0 { 0.1 * roughness } else { self.pitch[0] }
+    }
+
     /// The lower body's grid.
     pub fn lower_grid(&self) -> Grid {
         self.grid(self.lower.columns())

@@ -1,38 +1,44 @@
-//! Solution of all positions of a pass as one problem, with the approach as the multiplier of their mean
-//! load.
+//! First guess of the approach of a pass from a sample of its positions. They are solved as one problem, with
+//! the approach as the multiplier of their mean load.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
+use crate::motion::approach::MAX_RESIDUAL;
 use crate::motion::contact::Contact;
 use crate::motion::control::LoadControl;
 use crate::motion::kinematics::Motion;
 use crate::motion::pair::Pair;
 use crate::motion::pass::Solver;
 use crate::motion::path::Position;
+use crate::motion::warm_start::Guess;
 use crate::motion::watch::{OneOfMany, Progress};
 use crate::operator::{Operator, Operators};
 use crate::solver::Control;
-use crate::solver::{Bounds, Method, Params, Residual, Site, coarse_site, solve_together};
-use crate::units::Newton;
+use crate::solver::{Bounds, JointSolution, Method, Params, Residual, Site, coarse_site, solve_together};
+use crate::units::{Newton, Pascal};
 
-/// Largest number of cells of all positions together that are stored at once.
+/// Largest number of cells of all sampled positions that are stored at once.
 const MAX_CELLS: usize = 40_000_000;
-/// Memory per cell while all positions are stored at once, bytes.
+/// Memory per cell while all sampled positions are stored at once, bytes.
 const BYTES_PER_CELL: f64 = 60.0;
 
-/// Upper bound of the residual η at which the approach is known well enough. From there on the positions are
-/// solved one by one, each with its own number of iterations.
-const MAX_RESIDUAL: f64 = 3e-2;
-/// Residual over the relative accuracy of the mean load. At the approach found with a residual η the
-/// error of the load is below 10⁻³ η; 10⁻⁵ to 7·10⁻⁴ η were measured.
-const RESIDUAL_PER_ACCURACY: f64 = 300.0;
+/// Number of positions that are sampled, if a pass has so many.
+const SAMPLED: usize = 16;
+/// Relative increase of the load between the two solutions of the sample.
+const LOAD_INCREASE: f64 = 0.02;
 
-/// Returns the memory, bytes, to solve all positions of a pass together, each with `columns` columns. `None`
-/// if they are not solved together: they are too many, the user chose a method, no mean load is prescribed,
-/// or the geometry changes from one position to the next.
+/// Returns the sampled ones of `count` positions.
+fn sampled(count: usize) -> impl Iterator<Item = usize> {
+    let interval = (count / SAMPLED).max(1);
+    (interval / 2..count).step_by(interval)
+}
+
+/// Returns the memory, bytes, to solve a sample of the positions of a pass together, each with `columns`
+/// columns. `None` if there is no sample: it has too many cells, the user chose a method, no mean load is
+/// prescribed, or the geometry changes from one position to the next.
 pub fn memory_together(
     motion: &Motion,
     method: Method,
@@ -40,59 +46,104 @@ pub fn memory_together(
     columns: &[usize],
     width: usize,
 ) -> Option<f64> {
-    let cells = width * columns.iter().sum::<usize>();
+    let cells = width * sampled(columns.len()).map(|position| columns[position]).sum::<usize>();
     let iterative = matches!(method, Method::Auto | Method::ActiveSet);
     let searched = matches!((motion.control, motion.load_control), (Control::Load(_), LoadControl::Pass));
     (motion.is_frozen(yields) && iterative && searched && cells <= MAX_CELLS)
         .then_some(BYTES_PER_CELL * cells as f64)
 }
 
-/// Fraction of the first residual below which the iteration goes even from a good start. After a change of
-/// the geometry, the errors of such a start all have the same sign, and so does that of its approach.
+/// Fraction of the first residual below which the iteration goes even from a good start. The errors of such
+/// a start all have the same sign, and so does that of its approach.
 const MIN_PROGRESS: f64 = 0.1;
 
 impl Solver<'_> {
-    /// Solves all positions at the common approach at which their mean load is `load` to the relative
-    /// `accuracy`. It starts from the pressures of `earlier` contacts at the same positions, if there are
-    /// any.
+    /// Guesses the approach at which the mean load of the pass is `load`, and the slope there, from a sample
+    /// of its positions. They are solved together, roughly, under two mean loads. Returns the guess, and the
+    /// contacts at the sampled positions among empty ones at the others. Returns none if the sample cannot
+    /// carry the loads, or does not converge. A sample of all positions is solved under one load, and needs no
+    /// slope to be near the approach.
     ///
     /// # Errors
-    /// [`Error::NotConverged`], [`Error::Interrupted`].
-    pub(super) fn solve_together(
+    /// [`Error::Interrupted`].
+    pub(super) fn sample(
         &self,
         pair: &Pair,
         load: Newton,
-        accuracy: f64,
         params: &Params,
-        earlier: Option<&Vec<Contact>>,
-    ) -> Result<Vec<Contact>> {
-        let facing = |position: &Position| RelativePosition {
+    ) -> Result<Option<(Guess, Vec<Contact>)>> {
+        let sampled: Vec<usize> = sampled(self.positions.len()).collect();
+        let facing = |index: &usize| RelativePosition {
             pair,
             operators: self.operators,
             motion: self.motion,
-            position: *position,
+            position: self.positions[*index],
         };
-        let facing: Vec<RelativePosition> = self.positions.iter().map(facing).collect();
-        let sites: Vec<&dyn Site> = facing.iter().map(|site| site as &dyn Site).collect();
-        let width = pair.lower.width();
-        let start = earlier.map(|contacts| contacts.iter().map(|c| c.pressure_field(width)).collect());
-        let total = load * self.positions.len() as f64;
-        let residual = (RESIDUAL_PER_ACCURACY * accuracy).min(MAX_RESIDUAL);
+        let facing: Vec<RelativePosition> = sampled.iter().map(facing).collect();
+        let (total, scale) = (load * sampled.len() as f64, pair.height_scale());
+        let more = (1.0 + LOAD_INCREASE) * total;
+        let bearable = facing.iter().map(|site| site.bounds().upper().sum(site.grid().cells()));
+        if more >= pair.cell_area() * bearable.sum::<f64>() {
+            return Ok(None);
+        }
+        let solved = self.solve_together(&facing, total, None, params).and_then(|first| {
+            if sampled.len() == self.positions.len() {
+                return Ok((Guess { error: 0.0, ..Guess::new(first.approach, 1.0 / scale) }, first));
+            }
+            let width = pair.lower.width();
+            let field = |(site, pressure): (&RelativePosition, &Vec<(u32, Pascal)>)| {
+                Contact::from_pressure(pair, site.position, first.approach, pressure.clone(), first.stats)
+                    .pressure_field(width)
+            };
+            let start = facing.iter().zip(&first.pressures).map(field).collect();
+            let further = self.solve_together(&facing, more, Some(start), params)?;
+            let slope = (1.0 + LOAD_INCREASE).ln() / (further.approach - first.approach);
+            let slope = if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / scale };
+            let stats = first.stats.and(&further.stats);
+            Ok((Guess::new(first.approach, slope), JointSolution { stats, ..further }))
+        });
+        let (guess, JointSolution { approach, pressures, stats }) = match solved {
+            Ok(solved) => solved,
+            Err(Error::NotConverged { .. }) => return Ok(None),
+            Err(other) => return Err(other),
+        };
+        let mut found = sampled.into_iter().zip(pressures).peekable();
+        let contact = |(index, position): (usize, &Position)| {
+            let (pressure, stats) = match found.next_if(|(at, _)| *at == index) {
+                Some((_, pressure)) => (pressure, stats),
+                None => Default::default(),
+            };
+            Contact::from_pressure(pair, *position, approach, pressure, stats)
+        };
+        let contacts = self.positions.iter().enumerate().map(contact).collect();
+        Ok(Some((guess, contacts)))
+    }
+
+    /// Solves sites roughly at the common approach at which their loads add up to `total`, near the pressures
+    /// of the `start`, if there are any.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`], [`Error::Interrupted`].
+    fn solve_together(
+        &self,
+        sites: &[RelativePosition<'_>],
+        total: Newton,
+        start: Option<Vec<Field>>,
+        params: &Params,
+    ) -> Result<JointSolution> {
         let first = OnceCell::new();
         let tolerance = |state: &Residual| {
             let first = *first.get_or_init(|| state.eta);
-            let wanted = residual.min(MIN_PROGRESS * first).max(params.tolerance);
+            let wanted = MAX_RESIDUAL.min(MIN_PROGRESS * first).max(params.tolerance);
             let progress = (first / state.eta).ln() / (first / wanted).ln();
             let progress = if progress.is_finite() { progress.clamp(0.0, 1.0) } else { 0.0 };
+            let load = total / sites.len() as f64;
             self.watch.position(&Progress { load, together: Some(progress), ..self.progress });
             wanted
         };
         let watch = OneOfMany(self.watch);
-        let found = solve_together(&sites, total, start, &tolerance, params.max_convolutions, &watch)?;
-        let contact = |(position, pressure): (&Position, _)| {
-            Contact::from_pressure(pair, *position, found.approach, pressure, found.stats)
-        };
-        Ok(self.positions.iter().zip(found.pressures).map(contact).collect())
+        let sites: Vec<&dyn Site> = sites.iter().map(|site| site as &dyn Site).collect();
+        solve_together(&sites, total, start, &tolerance, params.max_convolutions, &watch)
     }
 }
 

@@ -39,6 +39,29 @@ pub struct Guess {
     /// Relative change d ln W/dδ of the mean load with the approach, 1/m. The load of rough bodies grows
     /// about exponentially with the approach.
     pub slope: f64,
+    /// Change of the approach since the computed pass before, in m per pass of the motion.
+    pub change: Metre,
+    /// Fraction of this change that the next pass is expected to repeat, 0 … 1: the fraction of the change
+    /// before it that the last pass has repeated.
+    pub persistence: f64,
+    /// Expected relative error of the mean load at the guess: that of the guess before.
+    pub error: f64,
+}
+
+impl Guess {
+    /// Creates a guess of the first pass, with an unknown error.
+    pub(super) fn new(approach: Metre, slope: f64) -> Self {
+        Self { approach, slope, change: 0.0, persistence: 0.0, error: 1.0 }
+    }
+
+    /// Adds the change since the guess `before`, if there is one, `passes` passes of the motion earlier.
+    fn after(self, before: Option<&Self>, passes: f64) -> Self {
+        let Some(before) = before else { return self };
+        let change = (self.approach - before.approach) / passes;
+        let repeated = change / before.change;
+        let persistence = if repeated.is_finite() { repeated.clamp(0.0, 1.0) } else { 0.0 };
+        Self { change, persistence, ..self }
+    }
 }
 
 /// The loaded cells at one position.
@@ -71,7 +94,7 @@ impl WarmStart {
             LoadedCells::new(c.approach, c.pressure.clone(), before.positions.get(number), passes)
         };
         Self {
-            guess,
+            guess: guess.map(|guess| guess.after(before.guess.as_ref(), passes)),
             positions: contacts.iter().enumerate().map(loaded_cells).collect(),
             removed: removed.filter(|_| extrapolation.is_some()),
             extrapolation,
@@ -91,6 +114,17 @@ impl WarmStart {
         self.extrapolation.as_ref().map_or(1.0, |last| last.passes as f64)
     }
 
+    /// Returns the guess for the next pass, which is to meet its load to this `tolerance`; `None` before the first
+    /// pass. It is the last approach if that is expected to be near enough, since the contacts at it are known.
+    pub(super) fn guess(&self, tolerance: f64) -> Option<Guess> {
+        let guess = self.guess?;
+        let change = guess.persistence * self.extrapolated_passes() * guess.change;
+        let predicted = guess.approach + change;
+        let near = |last: &Metre| (predicted - last).abs() * guess.slope <= NEAR * tolerance;
+        let last = self.positions.first().map(|position| position.approach).filter(near);
+        Some(Guess { approach: last.unwrap_or(predicted), ..guess })
+    }
+
     /// Returns the initial contacts of the positions, at no cost so far; `None` before the first pass.
     pub(super) fn contacts(&self, pair: &Pair, positions: &[Position]) -> Option<Vec<Contact>> {
         let contact = |(loaded_cells, position): (&LoadedCells, &Position)| {
@@ -103,8 +137,8 @@ impl WarmStart {
 }
 
 /// ```text
-/// /              attributes: approach and slope of the guess (m, 1/m; with a prescribed mean load); represented, the finished
-///                passes of the motion; jump, the passes of the last extrapolation
+/// /              attributes: approach, slope, change, persistence and error of the guess (m, 1/m, m, 1, 1; with a prescribed mean
+///                load); represented, the finished passes of the motion; jump, the passes of the last extrapolation
 /// /approach      at each position, m
 /// /bearing       cells with p > 0 at each position
 /// /cell          those cells, position by position: flat index
@@ -126,9 +160,12 @@ impl CourseState for WarmStart {
             to.field("removed_upper", "m", upper);
             to.number("removed_change", *change);
         }
-        if let Some(Guess { approach, slope }) = self.guess {
+        if let Some(Guess { approach, slope, change, persistence, error }) = self.guess {
             to.number("approach", approach);
             to.number("slope", slope);
+            to.number("change", change);
+            to.number("persistence", persistence);
+            to.number("error", error);
         }
         let of_positions =
             |value: fn(&LoadedCells) -> f64| self.positions.iter().map(value).collect::<Vec<_>>();
@@ -164,7 +201,15 @@ impl WarmStart {
             change: changes.by_ref().take(count as usize).collect(),
             persistence,
         });
-        let guess = || Ok(Guess { approach: from.number("approach")?, slope: from.number("slope")? });
+        let guess = || {
+            Ok(Guess {
+                approach: from.number("approach")?,
+                slope: from.number("slope")?,
+                change: from.number("change")?,
+                persistence: from.number("persistence")?,
+                error: from.number("error")?,
+            })
+        };
         let extrapolation = || {
             let passes = from.number("jump")? as usize;
             Ok(LastExtrapolation { passes, sums: restore_sums(from, "sum")? })
@@ -182,6 +227,10 @@ impl WarmStart {
         })
     }
 }
+
+/// Largest error of the load expected at the last approach, as a fraction of the tolerance, for the next pass to begin
+/// there.
+const NEAR: f64 = 0.5;
 
 /// The extrapolated pressure of a cell is at least this fraction of the last one,
 const LEAST: f64 = 0.01;

@@ -3,6 +3,7 @@
 mod cholesky;
 pub mod convolution;
 pub mod elliptic;
+mod extremes;
 mod gmres;
 mod indices;
 pub(crate) mod mixed;
@@ -16,6 +17,7 @@ pub(crate) use asperity_base::math::{
 };
 pub use cholesky::Cholesky;
 pub use convolution::{Convolution, kernel_of_values};
+pub(crate) use extremes::{extremes, largest};
 pub use gmres::{Gmres, gmres};
 pub(crate) use indices::indices_where;
 pub(crate) use mixed::{MixedConvolution, MixedKernel, MixedTensorConvolution, MixedTensorKernel};

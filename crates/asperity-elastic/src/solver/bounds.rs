@@ -128,7 +128,7 @@ impl Interval {
     /// Whether a pressure lies strictly between the bounds.
     #[inline]
     pub(super) fn is_free(self, pressure: Pascal) -> bool {
-        self.lower < pressure && pressure < self.upper
+        (self.lower < pressure) & (pressure < self.upper)
     }
 }
 
@@ -139,7 +139,7 @@ macro_rules! with_bounds {
         let bounds = &$bounds;
         match bounds.uniform() {
             Some(interval) => {
-                let $of = |_: usize| interval;
+                let $of = move |_: usize| interval;
                 $do
             }
             None => {

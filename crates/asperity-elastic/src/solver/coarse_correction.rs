@@ -226,7 +226,8 @@ impl Bilinear {
                 let (first, rise) = (line[*node], line[*node + 1] - line[*node]);
                 let cells = values[columns.clone()].iter_mut().zip(&sets[columns.clone()]);
                 for ((value, set), share) in cells.zip(&self.shares[columns.clone()]) {
-                    *value += if *set == Set::Free { first + share * rise } else { 0.0 };
+                    let added = first + share * rise;
+                    *value += if *set == Set::Free { added } else { 0.0 };
                 }
             }
         }

@@ -5,6 +5,7 @@ use std::convert::Infallible;
 use asperity_base::math::active_set::{self, MAX_SCALINGS};
 
 use crate::grid::{CellValues, Field};
+use crate::math::extremes;
 use crate::math::sum::sums;
 use crate::ranks::Merged;
 use crate::solver::Settings;
@@ -77,13 +78,6 @@ pub(super) fn map_within(
     });
 }
 
-/// Returns the smallest and the largest of some values.
-pub(super) fn extremes<T: Copy + Into<f64>>(values: &[T]) -> [f64; 2] {
-    values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[min, max], y| {
-        [min.min((*y).into()), max.max((*y).into())]
-    })
-}
-
 impl Settings<'_> {
     /// Whether pressures with this sum carry the prescribed load, if there is one.
     pub(super) fn carries_the_load(&self, sum: f64) -> bool {
@@ -132,7 +126,7 @@ pub(super) fn make_feasible(cells: &mut impl Cells, settings: &Settings) {
 /// Returns a pressure clipped to its bounds, and 1 if it lies strictly between them.
 pub(super) fn within(pressure: Pascal, bounds: Interval) -> [f64; 2] {
     let p = bounds.clamp(pressure);
-    [p, if bounds.is_free(p) { 1.0 } else { 0.0 }]
+    [p, f64::from(u8::from(bounds.is_free(p)))]
 }
 
 /// Range of some pressures, their number, and the range of their bounds.

@@ -41,7 +41,7 @@ pub use residual::{Residual, residual};
 pub use site::{OwnedSite, Site, coarse_site};
 pub use stiffness::normal_stiffness;
 pub use tangential_stiffness::tangential_stiffness;
-pub use together::{solve_batch, solve_together};
+pub use together::{JointSolution, solve_batch, solve_together};
 pub use uniform::{UniformDisplacement, displace_uniformly};
 
 use std::borrow::Cow;

@@ -2,7 +2,8 @@
 
 use asperity_base::math::active_set::residual_scale;
 
-use crate::grid::Field;
+use crate::grid::{Field, flat, in_rows};
+use crate::math::sum::sums;
 use crate::ranks::Merged;
 use crate::solver::bounds::{Bounds, Interval, with_bounds};
 use crate::solver::{Problem, Settings};
@@ -43,17 +44,19 @@ pub fn residual(
     approach: Option<Metre>,
 ) -> Residual {
     with_bounds!(bounds, of => {
-        let cells = || {
-            let cells = pressure.iter().zip(displacement).zip(initial_gap).enumerate();
-            cells.map(|(cell, ((p, u), h))| Cell {
-                pressure: *p,
-                displacement: *u,
-                touch: h + u,
-                bounds: of(cell),
-            })
-        };
-        let approach = approach.unwrap_or_else(|| Multiplier::new(cells()).approach());
-        ResidualSums::new(cells(), approach, self_influence).residual(approach, self_influence)
+        let cells = pressure.iter().zip(displacement).zip(initial_gap).enumerate();
+        let cells = cells.map(|(cell, ((p, u), h))| Cell {
+            pressure: *p,
+            displacement: *u,
+            touch: h + u,
+            bounds: of(cell),
+        });
+        let approach = approach.unwrap_or_else(|| {
+            let [pressure, displacement, gap] = [pressure, displacement, initial_gap].map(in_rows);
+            let [pressure, displacement, gap] = [&pressure, &displacement, &gap].map(|field| flat(field));
+            Multiplier::new(pressure, |cell| gap[cell] + displacement[cell], of).approach()
+        });
+        ResidualSums::new(cells, approach, self_influence).residual(approach, self_influence)
     })
 }
 
@@ -90,18 +93,25 @@ pub(super) struct Multiplier {
 }
 
 impl Multiplier {
-    pub(super) fn new(cells: impl Iterator<Item = Cell>) -> Self {
-        let mut this = Self { weight: 0.0, moment: 0.0, max_capped: f64::NEG_INFINITY };
-        for Cell { pressure: p, touch, bounds, .. } in cells {
-            if bounds.is_free(p) {
-                let weight = p - bounds.lower;
-                this.weight += weight;
-                this.moment += weight * touch;
-            } else if p > bounds.lower {
-                this.max_capped = this.max_capped.max(touch);
-            }
+    /// Computes the sums of the cells with these pressures, with functions for their approaches h + u and
+    /// their bounds.
+    pub(super) fn new(
+        pressure: &[Pascal],
+        touch: impl Fn(usize) -> Metre,
+        bounds: impl Fn(usize) -> Interval,
+    ) -> Self {
+        let [weight, moment] = sums(pressure, |cell, p| {
+            let bounds = bounds(cell);
+            let weight = if bounds.is_free(p) { p - bounds.lower } else { 0.0 };
+            [weight, weight * touch(cell)]
+        });
+        let mut max_capped = f64::NEG_INFINITY;
+        // The capped cells count only if no cell has a weight.
+        if weight == 0.0 {
+            let capped = pressure.iter().enumerate().filter(|(cell, p)| **p > bounds(*cell).lower);
+            max_capped = capped.fold(max_capped, |most, (cell, _)| most.max(touch(cell)));
         }
-        this
+        Self { weight, moment, max_capped }
     }
 
     /// Returns the multiplier. If all cells are at a bound, any approach between those of the capped and of
@@ -330,6 +340,10 @@ mod tests {
         let all = cells(101);
         let (approach, c0) = (7.2, 0.3);
         let sums = |part: &[Cell]| ResidualSums::new(part.iter().copied(), approach, c0);
+        let multiplier = |part: &[Cell]| {
+            let pressure: Vec<Pascal> = part.iter().map(|cell| cell.pressure).collect();
+            Multiplier::new(&pressure, |cell| part[cell].touch, |cell| part[cell].bounds)
+        };
         let whole = sums(&all);
         let mean = all.iter().map(|cell| cell.displacement).sum::<f64>() / 101.0;
         let squares: f64 = all.iter().map(|cell| (cell.displacement - mean).powi(2)).sum();
@@ -340,9 +354,8 @@ mod tests {
             assert!((merged.squares / squares - 1.0).abs() < 1e-9, "{split}: {merged:?}");
             let [one, other] = [merged, whole].map(|sums| sums.residual(approach, c0));
             assert!((one.eta / other.eta - 1.0).abs() < 1e-9 && (one.scale / other.scale - 1.0).abs() < 1e-9);
-            let parts = [&all[..split], &all[split..]].map(|part| Multiplier::new(part.iter().copied()));
-            let merged = parts[0].and(parts[1]).approach();
-            assert!((merged / Multiplier::new(all.iter().copied()).approach() - 1.0).abs() < 1e-14);
+            let merged = multiplier(&all[..split]).and(multiplier(&all[split..])).approach();
+            assert!((merged / multiplier(&all).approach() - 1.0).abs() < 1e-14);
         }
     }
 

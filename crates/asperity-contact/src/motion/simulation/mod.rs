@@ -61,8 +61,7 @@ pub struct Simulation {
     compliance_of_grid: Option<GridCompliance>,
     /// The flash temperature over a pass, if requested.
     heat: Option<PassHeat>,
-    /// Whether the approach of a pass is found with all positions together, before they are solved one by
-    /// one.
+    /// Whether the first guess of the approach comes from a sample of the positions, solved together.
     together: bool,
     /// Source of the upper body of each pass after the first, if it differs from pass to pass.
     counter: Option<Counter>,
@@ -371,9 +370,8 @@ impl Simulation {
     /// [finished](Simulation::finish).
     ///
     /// # Errors
-    /// The errors of [`crate::solver::solve_normal`] in an [`Error::AtPosition`], or in an [`Error::AtPass`]
-    /// if all positions are solved together; [`Error::LoadNotReached`], [`Error::WornAway`] in an
-    /// [`Error::AtPass`], [`Error::Interrupted`].
+    /// The errors of [`crate::solver::solve_normal`] in an [`Error::AtPosition`]; [`Error::LoadNotReached`],
+    /// [`Error::WornAway`] in an [`Error::AtPass`]; [`Error::Interrupted`].
     pub fn solve(&self, watch: &dyn Watch) -> Result<SolvedPass> {
         let pass = self.passes_done + 1;
         self.solve_next(watch).map_err(|error| error.if_of_step(|source| Error::AtPass { pass, source }))

@@ -26,9 +26,9 @@ impl Simulation {
         if on_device && self.motion.is_one_batch(pair.yields()) {
             let start = earlier.first();
             if let Some(pass) = solver.solve_batch(pair, self.motion.control, &self.params, start)? {
-                let slope = self.warm.guess.map_or(1.0 / height_scale(pair), |guess| guess.slope);
+                let slope = self.warm.guess.map_or(1.0 / pair.height_scale(), |guess| guess.slope);
                 let searched = matches!(self.motion.control, Control::Load(_));
-                let guess = searched.then(|| Guess { approach: pass.contacts[0].approach, slope });
+                let guess = searched.then(|| Guess::new(pass.contacts[0].approach, slope));
                 return Ok((pass, guess, 1));
             }
         }
@@ -48,26 +48,18 @@ impl Simulation {
         let remembers = pair.creep().is_some() || pair.lubrication().is_some();
         let exact = self.volumes.is_some() || !pair.interface().is_hard() || remembers;
         let roughest = if exact { self.params.tolerance } else { MAX_RESIDUAL };
-        let mut residual = roughest;
-        let mut guess = self.warm.guess;
-        if self.together {
-            let accuracy = self.motion.load_tolerance;
-            let start = earlier.first();
-            match solver.solve_together(pair, load, accuracy, &self.params, start) {
-                Ok(contacts) => {
-                    let slope = guess.map_or(1.0 / height_scale(pair), |guess| guess.slope);
-                    guess = Some(Guess { approach: contacts[0].approach, slope });
-                    earlier = vec![contacts];
-                    residual = self.params.tolerance;
-                }
-                // The search then runs without it.
-                Err(Error::NotConverged { .. }) => {}
-                Err(other) => return Err(other),
-            }
-        }
-        let guess = match guess {
+        let guess = match self.warm.guess(self.motion.load_tolerance) {
             Some(guess) => guess,
-            None => self.first_guess(pair, load, watch)?,
+            None => {
+                let sample = self.together.then(|| solver.sample(pair, load, &self.params)).transpose()?;
+                match sample.flatten() {
+                    Some((guess, contacts)) => {
+                        earlier = vec![contacts];
+                        guess
+                    }
+                    None => self.first_guess(pair, load, watch)?,
+                }
+            }
         };
         let search = Search {
             load,
@@ -79,12 +71,16 @@ impl Simulation {
             limit: self.limit(pair),
         };
         let mut closed = false;
-        let found = search.run(guess, residual, |approach, residual| {
+        let found = search.run(guess, |approach, residual| {
             let control = Control::Approach(approach);
             let outcome = match self.solve_in_sequence(&solver, pair, control, &earlier)? {
                 Some(pass) => pass,
                 None => solver.solve_roughly(pair, control, (residual, &self.params), &earlier)?,
             };
+            if solver.progress.trial == 1 {
+                // Contacts of another geometry are no trials.
+                earlier.clear();
+            }
             solver.progress.trial += 1;
             closed |= outcome.contacts.iter().any(|contact| self.leaves_mean_free(contact));
             earlier.insert(0, outcome.contacts.clone());
@@ -153,19 +149,19 @@ impl Simulation {
             .map(|(contact, _)| contact)
         };
         let (less, more) = ((load * share).min(0.9 * limit), (1.2 * load * share).min(0.95 * limit));
-        let scale = height_scale(pair);
+        let scale = pair.height_scale();
         let solved =
             solve(less, None).and_then(|first| Ok((first.approach, solve(more, Some(&first))?.approach)));
         let (approach, further) = match solved {
             Ok(approaches) => approaches,
             // Without a solution, the guess starts at first touch.
             Err(Error::NotConverged { .. }) => {
-                return Ok(Guess { approach: self.touch(pair) + scale, slope: 1.0 / scale });
+                return Ok(Guess::new(self.touch(pair) + scale, 1.0 / scale));
             }
             Err(other) => return Err(other),
         };
         let slope = (more / less).ln() / (further - approach);
-        Ok(Guess { approach, slope: if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / scale } })
+        Ok(Guess::new(approach, if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / scale }))
     }
 
     /// Approach at which some position of the pass first touches.
@@ -220,12 +216,6 @@ impl Simulation {
 fn resolution(pair: &Pair) -> Metre {
     let highest = |heights: &Field| heights.iter().fold(0.0, |most, z| f64::max(most, z.abs()));
     f64::EPSILON * highest(&pair.lower.heights).max(highest(&pair.upper.heights))
-}
-
-/// Length over which the load changes by a factor of about e, for a first guess: a tenth of the roughness.
-fn height_scale(pair: &Pair) -> Metre {
-    let roughness = pair.lower.heights.std(0.0).hypot(pair.upper.heights.std(0.0));
-    if roughness > 0.0 { 0.1 * roughness } else { pair.pitch()[0] }
 }
 
 fn mean_columns(positions: &[Position]) -> f64 {

@@ -25,7 +25,7 @@ fn passes(strategy: Strategy, boundary: Boundary, together: bool) -> Vec<PassRec
     let pair = Pair::new(surface(1), surface(2), [&steel, &steel]).unwrap();
     let motion = Motion::new(strategy, Control::Load(0.05 * 3e9 * grid.area()))
         .with_passes(3)
-        .with_stride(4)
+        .with_stride(1)
         .with_load_tolerance(1e-6);
     let mut simulation =
         Simulation::new(pair, boundary, motion, Params::new().with_method(Method::ActiveSet)).unwrap();
@@ -62,7 +62,7 @@ fn cells_that_never_yield_bear_what_those_that_do_leave_them() {
 }
 
 #[test]
-fn all_positions_together_are_the_search_on_the_approach_in_fewer_convolutions() {
+fn a_sample_of_the_positions_saves_convolutions_and_changes_no_answer() {
     let shift = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
     for (strategy, boundary) in [(Strategy::Overlap, Boundary::FREE), (shift, Boundary::PERIODIC)] {
         let [one, other] = [true, false].map(|together| passes(strategy, boundary, together));
@@ -73,6 +73,6 @@ fn all_positions_together_are_the_search_on_the_approach_in_fewer_convolutions()
             assert!(close(a.lost("plastic")[0], b.lost("plastic")[0], 1e-3), "{a:?}\n{b:?}");
         }
         let cost = |passes: &[PassRecord]| passes.iter().map(|p| p.convolutions).sum::<f64>();
-        assert!(cost(&one) < 0.8 * cost(&other), "{} and {}", cost(&one), cost(&other));
+        assert!(cost(&one) < cost(&other), "{} and {}", cost(&one), cost(&other));
     }
 }

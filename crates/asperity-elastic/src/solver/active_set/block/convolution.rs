@@ -2,7 +2,7 @@
 
 use super::{Block, zip};
 use crate::grid::{Field, SingleField, flat, flat_mut};
-use crate::math::parallel;
+use crate::math::{largest, parallel};
 use crate::ranks::{Largest, Merged};
 use crate::solver::SINGLE_PRECISION;
 use crate::solver::site::Site;
@@ -45,8 +45,7 @@ impl Block<'_> {
             site.with_operator(&mut |operator| operator.apply_single(direction, response));
             self.convolutions += 1;
         }
-        let largest = |part: &[f32]| part.iter().fold(0.0f32, |m, u| if u.abs() > m { u.abs() } else { m });
-        let parts = parallel::map(self.bands.cut(flat(response)), largest);
+        let parts = parallel::map(self.bands.cut(flat(response)), |part| largest(part, |_, u: f32| u.abs()));
         // The rounding of transforms depends on the largest value on the whole grid.
         Largest(self.max_response) =
             self.slab.merged(Largest(f64::from(parts.into_iter().fold(0.0, f32::max))));
@@ -143,7 +142,7 @@ impl Block<'_> {
         let gap = self.site.initial_gap();
         let bands = self.bands.cut(flat(&self.touch)).zip(self.bands.cut(flat(&gap)));
         let parts = parallel::map(bands, |(touch, gap)| {
-            touch.iter().zip(gap).fold(0.0, |most, (touch, h)| f64::max(most, (touch - h).abs()))
+            largest(&touch[..gap.len()], |cell, touch: f64| (touch - gap[cell]).abs())
         });
         let largest = parts.into_iter().fold(0.0, f64::max);
         SINGLE_PRECISION * largest.max(self.local * self.largest_pressure())
@@ -152,7 +151,7 @@ impl Block<'_> {
     /// Largest |p|.
     fn largest_pressure(&self) -> Pascal {
         let parts = parallel::map(self.bands.cut(flat(&self.pressure)), |pressure| {
-            pressure.iter().fold(0.0, |most, p| f64::max(most, p.abs()))
+            largest(pressure, |_, p: f64| p.abs())
         });
         self.slab.merged(Largest(parts.into_iter().fold(0.0, f64::max))).0
     }

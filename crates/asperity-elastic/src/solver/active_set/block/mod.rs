@@ -9,10 +9,10 @@ pub(super) use step::ResidualNorms;
 use ndarray::Array2;
 
 use crate::grid::{Field, SingleField, flat, flat_mut};
-use crate::math::{Bands, parallel};
+use crate::math::{Bands, extremes, parallel};
 use crate::ranks::{Halo, Merged, Slab};
 use crate::solver::bounds::{Interval, with_bounds};
-use crate::solver::feasible::{Range, extremes, map_within, sum_within};
+use crate::solver::feasible::{Range, map_within, sum_within};
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::sets::Sets;
 use crate::solver::site::Site;

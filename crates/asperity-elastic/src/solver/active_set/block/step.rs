@@ -6,11 +6,11 @@ use std::ops;
 use super::{Block, NEAR_FIELD, zip};
 use crate::grid::{flat, flat_mut};
 use crate::math::sum::sums;
-use crate::math::{indices_where, parallel};
+use crate::math::{extremes, indices_where, parallel};
 use crate::ranks::Merged;
 use crate::solver::bounds::{Interval, with_bounds};
-use crate::solver::feasible::{Range, extremes, within};
-use crate::solver::residual::{Cell, Multiplier, ResidualSums};
+use crate::solver::feasible::{Range, within};
+use crate::solver::residual::{Multiplier, ResidualSums};
 use crate::solver::sets::Set;
 use crate::solver::{SINGLE_PRECISION, Settings};
 use crate::units::{Metre, Pascal};
@@ -59,15 +59,8 @@ impl Block<'_> {
         let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
         let parts = parallel::map(bands.enumerate(), |(band, (pressure, touch))| {
             let first = self.bands.first(band);
-            let cells = pressure.iter().zip(touch).enumerate();
-            with_bounds!(bounds, of => {
-                Multiplier::new(cells.map(|(cell, (p, touch))| Cell {
-                    pressure: *p,
-                    displacement: 0.0,
-                    touch: *touch,
-                    bounds: of(first + cell),
-                }))
-            })
+            let touch = &touch[..pressure.len()];
+            with_bounds!(bounds, of => Multiplier::new(pressure, |cell| touch[cell], |cell| of(first + cell)))
         });
         Merged::of_parts(parts)
     }
@@ -105,7 +98,7 @@ impl Block<'_> {
             for ((y, p), touch) in proposed.iter_mut().zip(pressure).zip(touch) {
                 *y = (p + (approach - touch) * stiffness) as f32;
             }
-            extremes(proposed)
+            extremes(proposed).map(f64::from)
         });
         self.range_of(parts)
     }
@@ -126,7 +119,7 @@ impl Block<'_> {
         let (pressure, touch) = (flat(&self.pressure), flat(&self.touch));
         let proposed = |cells: ops::Range<usize>| {
             let cells = pressure[cells.clone()].iter().zip(&touch[cells]);
-            cells.map(|(p, touch)| p + (approach - touch) * stiffness + offset)
+            cells.map(move |(p, touch)| p + (approach - touch) * stiffness + offset)
         };
         self.sets.assign(proposed, &self.site.bounds());
         self.preconditioner.adapt(&self.sets);
@@ -145,11 +138,13 @@ impl Block<'_> {
             let cells = direction.iter_mut().zip(sets).zip(pressure).enumerate();
             with_bounds!(bounds, of => {
                 for (cell, ((d, set), p)) in cells {
-                    let distance = match set {
-                        Set::Lower => of(first + cell).lower - p,
-                        Set::Upper => of(first + cell).upper - p,
-                        Set::Free => 0.0,
+                    let Interval { lower, upper } = of(first + cell);
+                    let end = match set {
+                        Set::Lower => lower,
+                        Set::Upper => upper,
+                        Set::Free => *p,
                     };
+                    let distance = end - p;
                     moving += usize::from(distance != 0.0);
                     *d = distance as f32;
                 }
@@ -267,11 +262,12 @@ impl Block<'_> {
             let cells = pressure.iter_mut().zip(direction).zip(sets).enumerate();
             with_bounds!(bounds, of => {
                 for (cell, ((p, d), set)) in cells {
+                    let (Interval { lower, upper }, moved) = (of(first + cell), *p + f64::from(*d));
                     // The pressures are exactly at the bounds, without the rounding of the sum.
                     *p = match set {
-                        Set::Lower => of(first + cell).lower,
-                        Set::Upper => of(first + cell).upper,
-                        Set::Free => *p + f64::from(*d),
+                        Set::Lower => lower,
+                        Set::Upper => upper,
+                        Set::Free => moved,
                     };
                 }
             });
