@@ -129,7 +129,7 @@ impl Plan {
                 (Some(_), Some(spec)) => Some(spec.layers()?),
                 _ => None,
             },
-            material: body.material,
+            material: body.material.clone(),
             of_body: match spec.body {
                 Side::Lower => *lower,
                 Side::Upper => *upper,

@@ -41,7 +41,7 @@ impl Pair {
     ///
     /// # Errors
     /// [`Error::GridMismatch`] if pitches or transverse widths differ, [`Error::UndefinedSamples`] if heights
-    /// are missing, [`Error::OutOfRange`] if both materials are rigid and neither is coated.
+    /// are missing, [`Error::OutOfRange`] if both materials are rigid and neither has layers.
     pub fn new(lower: Topography, upper: Topography, materials: [&Material; 2]) -> Result<Self> {
         let (a, b) = (*lower.grid(), *upper.grid());
         if (0..2).any(|axis| (a.pitch[axis] - b.pitch[axis]).abs() > 1e-9 * a.pitch[axis]) {
@@ -83,17 +83,17 @@ impl Pair {
     /// relaxed modulus.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a coated body.
+    /// [`Error::Unsupported`] for a body with layers.
     pub fn with_relaxation(
         mut self,
         materials: [&Material; 2],
         relaxations: [Option<Relaxation>; 2],
     ) -> Result<Self> {
-        if materials.iter().any(|material| material.coating.is_some()) {
-            return Err(Error::Unsupported("a coated body cannot be viscoelastic"));
+        if materials.iter().any(|material| material.is_layered()) {
+            return Err(Error::Unsupported("a body with layers cannot be viscoelastic"));
         }
         let creep = |body: usize| {
-            let Material { young, poisson, .. } = *materials[body];
+            let &Material { young, poisson, .. } = materials[body];
             let creep = relaxations[body].as_ref().map_or(Creep::elastic(1.0 / young), Relaxation::creep);
             creep.times(1.0 - poisson * poisson)
         };
@@ -178,12 +178,12 @@ impl Pair {
         self.pitch
     }
 
-    /// Composite modulus E* of the bodies, without their coatings.
+    /// Composite modulus E* of the bodies, without their layers.
     pub fn modulus(&self) -> Pascal {
         self.compliances.modulus()
     }
 
-    /// Elastic compliances of the pair, without the coatings.
+    /// Elastic compliances of the pair, without the layers.
     pub fn compliances(&self) -> &Compliances {
         &self.compliances
     }

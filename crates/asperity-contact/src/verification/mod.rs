@@ -141,6 +141,7 @@ pub const CASES: &[Case] = &[
     coated::FREE_AND_PERIODIC,
     coated::THICK,
     coated::FOUNDATION,
+    coated::SERIES,
     coated::INCOMPRESSIBLE,
     rough::PLASTIC_LIMIT,
     rough::WORK,

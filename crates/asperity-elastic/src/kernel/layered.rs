@@ -1,24 +1,24 @@
-//! An elastic layer bonded to a half-space.
+//! Bodies with bonded elastic layers.
 
 use crate::error::Result;
-use crate::kernel::{Influence, Layering, Response, SharedResponse};
-use crate::material::{Coating, Compliances, Material};
-use crate::units::{Metre, Pascal};
+use crate::kernel::{Influence, Layering, Response, SharedResponse, Stack};
+use crate::material::{Compliances, Material};
+use crate::units::Metre;
 
-/// Returns the response of bodies of these materials to a traction. Coated bodies respond only to a pressure.
+/// Returns the response of bodies of these materials to a traction. Bodies with layers respond only to a pressure.
 ///
 /// # Errors
 /// [`crate::Error::OutOfRange`] if both bodies are rigid.
 pub fn response(lower: &Material, upper: &Material) -> Result<SharedResponse> {
     let compliances = Compliances::new(lower, upper)?;
-    let of = |material: &Material| match material.coating {
-        Some(coating) => CoatedHalfSpace::new(material, &coating).into(),
-        None => SharedResponse::from(material.plane_strain_modulus()),
-    };
-    match [lower.coating, upper.coating] {
-        [None, None] => Ok(compliances.into()),
-        _ => Ok([of(lower), of(upper)].into()),
+    if !lower.is_layered() && !upper.is_layered() {
+        return Ok(compliances.into());
     }
+    let of = |material: &Material| match material.is_layered() {
+        true => LayeredBody::new(material).into(),
+        false => SharedResponse::from(material.plane_strain_modulus()),
+    };
+    Ok([of(lower), of(upper)].into())
 }
 
 /// Sum of the displacements of two bodies, each pressed by a rigid one.
@@ -33,108 +33,40 @@ impl Response for [SharedResponse; 2] {
     }
 }
 
-/// A half-space with a bonded elastic layer, pressed by a rigid body.
-///
-/// For a layer (G₁, ν₁) of thickness t on a half-space (G₂, ν₂), with x = qt, θ = e^(−2x), a = 3 − 4ν₁, b = 3
-/// − 4ν₂ and μ = G₁/G₂,
-///
-/// ```text
-///           1 − ν₁   1 + 4κxθ − λκθ²                          μb − a         μ − 1
-/// û(q) p̂ = ─────── ─────────────────────────────── p̂    λ = ────────   κ = ───────
-///            G₁ q    1 − (λ + κ + 4κx²) θ + λκθ²              1 + μb         μ + a
-/// ```
-/// O'Sullivan and King, J. Tribol. 110, 235 (1988).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CoatedHalfSpace {
+/// A half-space or a rigid body with bonded elastic layers, pressed by a rigid body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayeredBody {
+    stack: Stack,
     layering: Layering,
-    thickness: Metre,
-    /// μ, a and b.
-    ratio: f64,
-    constants: [f64; 2],
 }
 
-impl CoatedHalfSpace {
-    /// Creates a `coating` on a half-space of the material `base`, whose own coating is ignored.
-    pub fn new(base: &Material, coating: &Coating) -> Self {
-        let shear = |young: Pascal, poisson: f64| 0.5 * young / (1.0 + poisson);
-        let layer = Material { young: coating.young, poisson: coating.poisson, ..*base };
-        let compliance = |material: &Material| material.plane_strain_modulus().recip();
-        Self {
-            layering: Layering {
-                short: compliance(&layer),
-                long: compliance(base),
-                depth: 2.0 * coating.thickness,
-            },
-            thickness: coating.thickness,
-            ratio: shear(coating.young, coating.poisson) / shear(base.young, base.poisson),
-            constants: [coating.poisson, base.poisson].map(|poisson| 3.0 - 4.0 * poisson),
-        }
-    }
-
-    /// Returns û of the wavenumber q > 0, m/Pa. It is exact to rounding, also for long waves on an
-    /// incompressible layer.
-    fn harmonic(&self, q: f64) -> f64 {
-        let &Self { ratio: mu, constants: [a, b], thickness, .. } = self;
-        let x = q * thickness;
-        let lambda = (mu * b - a) / (1.0 + mu * b);
-        let kappa = (mu - 1.0) / (mu + a);
-        let ratio = if x > LONG {
-            let theta = (-2.0 * x).exp();
-            (1.0 + (4.0 * kappa * x - lambda * kappa * theta) * theta)
-                / (1.0 - (lambda + kappa + 4.0 * kappa * x * x - lambda * kappa * theta) * theta)
-        } else {
-            // Both are divided by θ, without the cancelling terms: 1 − λκ, 1 + λ and (1 − λ)(1 − κ) are
-            // products.
-            let scale = ((1.0 + mu * b) * (mu + a)).recip();
-            let rest = mu * (1.0 + a) * (1.0 + b) * scale;
-            let one_plus_lambda = (2.0 * mu * b + (1.0 - a)) / (1.0 + mu * b);
-            let one_minus_lambda = (1.0 + a) / (1.0 + mu * b);
-            let above = rest * (2.0 * x).exp()
-                + 2.0 * lambda * kappa * odd_rest(2.0 * x)
-                + 4.0 * x * kappa * one_plus_lambda;
-            let below = (1.0 + a).powi(2) * scale
-                + rest * (2.0 * x).exp_m1()
-                + 4.0 * kappa * (lambda * square_rest(x) - one_minus_lambda * x * x);
-            above / below
+impl LayeredBody {
+    /// Creates the body of a `material` with its layers.
+    ///
+    /// # Panics
+    /// If it has none.
+    pub fn new(material: &Material) -> Self {
+        let surface = material.layers.first().expect("a layer");
+        let stack = Stack::new(material);
+        // 1/E* is half of û q of a half-space.
+        let layering = Layering {
+            short: 0.5 * stack.short().normal,
+            long: 0.5 * stack.long().normal,
+            depth: 2.0 * surface.thickness,
         };
-        2.0 * self.layering.short / q * ratio
+        Self { stack, layering }
     }
 }
 
-impl Response for CoatedHalfSpace {
+impl Response for LayeredBody {
     fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64 {
         let q = qx.hypot(qy);
-        if q == 0.0 { 0.0 } else { self.harmonic(q) }
+        if q == 0.0 { 0.0 } else { self.stack.response(q).normal }
     }
 
     fn influence(&self, pitch: [Metre; 2]) -> Box<dyn Influence> {
-        self.layering.influence(|q| self.harmonic(q), pitch)
+        self.layering.influence(|q| self.stack.response(q).normal, pitch)
     }
-}
-
-/// Above this qt nothing cancels, and e^(4qt) would soon overflow.
-const LONG: f64 = 2.0;
-
-/// sinh x − x.
-fn odd_rest(x: f64) -> f64 {
-    if x < 1.0 { series(x * x * x / 6.0, x * x, 4.0) } else { x.sinh() - x }
-}
-
-/// sinh² x − x².
-fn square_rest(x: f64) -> f64 {
-    if x < 1.0 { 0.5 * series(16.0 * x.powi(4) / 24.0, 4.0 * x * x, 5.0) } else { x.sinh().powi(2) - x * x }
-}
-
-/// Sums a series from its first term. Each term is the previous one times `square`/n(n + 1), n = `from`,
-/// `from` + 2, ….
-fn series(first: f64, square: f64, from: f64) -> f64 {
-    let (mut term, mut sum, mut n) = (first, first, from);
-    while term > f64::EPSILON * sum {
-        term *= square / (n * (n + 1.0));
-        sum += term;
-        n += 2.0;
-    }
-    sum
 }
 
 #[cfg(test)]
@@ -145,13 +77,20 @@ mod tests {
 
     use super::*;
     use crate::kernel::normal_displacement;
+    use crate::material::Coating;
     use crate::math::gauss_legendre;
 
     const RIGID: f64 = f64::INFINITY;
 
-    fn coated([young, poisson]: [f64; 2], thickness: f64, layer: [f64; 2]) -> CoatedHalfSpace {
+    fn coated([young, poisson]: [f64; 2], thickness: f64, layer: [f64; 2]) -> LayeredBody {
         let base = Material::elastic(young, poisson).unwrap();
-        CoatedHalfSpace::new(&base, &Coating::new(thickness, layer[0], layer[1]).unwrap())
+        LayeredBody::new(&base.coated(Coating::new(thickness, layer[0], layer[1]).unwrap()))
+    }
+
+    impl LayeredBody {
+        fn harmonic(&self, q: f64) -> f64 {
+            self.harmonic_displacement(q, 0.0)
+        }
     }
 
     /// Bodies of all kinds: `[E, ν]` of the half-space, thickness, `[E, ν]` of the layer.
@@ -238,14 +177,14 @@ mod tests {
     /// Computes the displacement minus that of a half-space of the layer material, by a sum over all
     /// directions and wavenumbers of the remaining harmonics. It is slow, and independent of the closed forms
     /// and tables.
-    fn beyond_the_layer(body: &CoatedHalfSpace, at: [f64; 2], pitch: [f64; 2]) -> f64 {
+    fn beyond_the_layer(body: &LayeredBody, at: [f64; 2], pitch: [f64; 2]) -> f64 {
         let short = body.layering.short;
         let end = 45.0 / body.layering.depth;
         let reach = (at[0] + 0.5 * pitch[0]).hypot(at[1] + 0.5 * pitch[1]);
         let sinc = |x: f64| if x == 0.0 { 1.0 } else { x.sin() / x };
         let nodes = gauss_legendre(10);
         let mut sum = 0.0;
-        let mut start = 1e-13 / reach.max(body.thickness);
+        let mut start = 1e-13 / reach.max(0.5 * body.layering.depth);
         while start < end {
             let half = 0.5 * start.min(3.0 / reach).min(3.0 / body.layering.depth);
             for (node, weight) in &nodes {
