@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid, Placement, check_finite, flat_mut};
-use crate::kernel::{SharedResponse, response};
+use crate::kernel::{CoupledResponse, SharedResponse, response};
 use crate::lubrication::Lubrication;
 use crate::material::{Compliances, Material, plastic_share};
 use crate::math::{Bands, parallel};
@@ -196,7 +196,7 @@ impl Pair {
     /// Whether pressure displaces the bodies tangentially, and shear displaces them normally; false if the
     /// response to shear is unknown.
     pub(super) fn couples(&self) -> bool {
-        self.response.compliances().is_some_and(Compliances::couples)
+        self.response.coupled().is_some_and(CoupledResponse::couples)
     }
 
     /// Returns [`Error::Unsupported`] if contacts with stick are not solved between these bodies.
@@ -208,7 +208,7 @@ impl Pair {
     /// Returns [`Error::Unsupported`] if the response to shear is unknown.
     pub(super) fn check_shear(&self) -> Result<()> {
         self.response
-            .compliances()
+            .coupled()
             .map(|_| ())
             .ok_or(Error::Unsupported("these bodies support friction only in gross sliding without coupling"))
     }

@@ -37,6 +37,30 @@ pub(super) fn integral_below(
     }
 }
 
+/// [`integral_below`] of several functions.
+pub(super) fn integrals_below<const N: usize>(
+    [x, y]: [f64; 2],
+    depth: f64,
+    [a, b]: [f64; 2],
+    closed: impl Fn(f64, f64) -> [f64; N],
+    k: impl Fn(f64, f64) -> [f64; N],
+) -> [f64; N] {
+    let mut sums = [0.0; N];
+    let mut add = |weight: f64, values: [f64; N]| {
+        sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
+    };
+    if x.hypot(y).hypot(depth) > FAR * a.max(b) {
+        gauss_points([x, y], [a, b]).for_each(|([x, y], weight)| add(weight * a * b, k(x, y)));
+    } else {
+        for (sign, x, y) in
+            [(1.0, x + a, y + b), (-1.0, x - a, y + b), (-1.0, x + a, y - b), (1.0, x - a, y - b)]
+        {
+            add(sign, closed(x, y));
+        }
+    }
+    sums
+}
+
 /// Computes the means over −b … b of η of [`integral`] at (x, y + 2bj + η), j below `columns`, for the closed
 /// form of its third indefinite integral, twice along y.
 pub(super) fn means_across(

@@ -2,7 +2,7 @@
 
 use crate::grid::Field;
 use crate::kernel::spectral::harmonic_displacement;
-use crate::kernel::{Influence, Line, Response, SharedResponse, normal_displacement};
+use crate::kernel::{CoupledResponse, Influence, Line, Response, SharedResponse, normal_displacement};
 use crate::material::Compliances;
 use crate::units::{Metre, Pascal};
 
@@ -58,8 +58,8 @@ impl Response for HalfSpaces {
         Some(self.modulus)
     }
 
-    fn compliances(&self) -> Option<&Compliances> {
-        self.compliances.as_ref()
+    fn coupled(&self) -> Option<&dyn CoupledResponse> {
+        self.compliances.as_ref().map(|compliances| compliances as &dyn CoupledResponse)
     }
 }
 

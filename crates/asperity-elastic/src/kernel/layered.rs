@@ -1,11 +1,19 @@
 //! Bodies with bonded elastic layers.
 
+use std::f64::consts::PI;
+
 use crate::error::Result;
-use crate::kernel::{Influence, Layering, Response, SharedResponse, Stack};
+use crate::kernel::cell::integrals_below;
+use crate::kernel::layering::{Remainder, Transform, along_side};
+use crate::kernel::{
+    Coefficients, CoupledInfluence, CoupledResponse, Influence, Layering, Response, SharedResponse, Stack,
+    coupled_displacement, normal_displacement,
+};
 use crate::material::{Compliances, Material};
+use crate::math::gauss_legendre;
 use crate::units::Metre;
 
-/// Returns the response of bodies of these materials to a traction. Bodies with layers respond only to a pressure.
+/// Returns the response of bodies of these materials to a traction.
 ///
 /// # Errors
 /// [`crate::Error::OutOfRange`] if both bodies are rigid.
@@ -14,11 +22,9 @@ pub fn response(lower: &Material, upper: &Material) -> Result<SharedResponse> {
     if !lower.is_layered() && !upper.is_layered() {
         return Ok(compliances.into());
     }
-    let of = |material: &Material| match material.is_layered() {
-        true => LayeredBody::new(material).into(),
-        false => SharedResponse::from(material.plane_strain_modulus()),
-    };
-    Ok([of(lower), of(upper)].into())
+    let couples = LayeredBody::new(lower) != LayeredBody::new(upper);
+    Ok(LayeredPair { bodies: [lower, upper].map(|material| LayeredBody::new(material).into()), couples }
+        .into())
 }
 
 /// Sum of the displacements of two bodies, each pressed by a rigid one.
@@ -33,58 +39,260 @@ impl Response for [SharedResponse; 2] {
     }
 }
 
-/// A half-space or a rigid body with bonded elastic layers, pressed by a rigid body.
+/// Two bodies, of which one has layers, under traction in all directions.
+#[derive(Debug)]
+struct LayeredPair {
+    bodies: [SharedResponse; 2],
+    couples: bool,
+}
+
+impl LayeredPair {
+    fn each(&self) -> [&dyn CoupledResponse; 2] {
+        self.bodies.each_ref().map(|body| body.coupled().expect("a body that responds to shear"))
+    }
+}
+
+impl Response for LayeredPair {
+    fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64 {
+        self.bodies.harmonic_displacement(qx, qy)
+    }
+
+    fn influence(&self, pitch: [Metre; 2]) -> Box<dyn Influence> {
+        self.bodies.influence(pitch)
+    }
+
+    fn coupled(&self) -> Option<&dyn CoupledResponse> {
+        Some(self)
+    }
+}
+
+impl CoupledResponse for LayeredPair {
+    fn couples(&self) -> bool {
+        self.couples
+    }
+
+    fn harmonic_displacements(&self, qx: f64, qy: f64) -> Coefficients {
+        let [lower, upper] = self.each().map(|body| body.harmonic_displacements(qx, qy));
+        lower.against(upper)
+    }
+
+    fn coupled_influence(&self, pitch: [Metre; 2]) -> Box<CoupledInfluence> {
+        let [lower, upper] = self.each().map(|body| body.coupled_influence(pitch));
+        Box::new(move |x, y| lower(x, y).against(upper(x, y)))
+    }
+}
+
+/// A half-space or a rigid body, with bonded elastic layers or without, under the traction of a rigid body above it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayeredBody {
     stack: Stack,
-    layering: Layering,
+    /// Compliances of a half-space of the material at the surface.
+    surface: Compliances,
+    /// Twice the thickness of the layer at the surface, if there is one.
+    depth: Option<Metre>,
 }
 
 impl LayeredBody {
     /// Creates the body of a `material` with its layers.
-    ///
-    /// # Panics
-    /// If it has none.
     pub fn new(material: &Material) -> Self {
-        let surface = material.layers.first().expect("a layer");
         let stack = Stack::new(material);
+        let short = stack.short();
         // 1/E* is half of û q of a half-space.
-        let layering = Layering {
-            short: 0.5 * stack.short().normal,
-            long: 0.5 * stack.long().normal,
-            depth: 2.0 * surface.thickness,
+        let surface = Compliances {
+            normal: 0.5 * short.normal,
+            lateral: 0.5 * (short.across - short.along),
+            coupling: 0.5 * short.coupling,
         };
-        Self { stack, layering }
+        Self { stack, surface, depth: material.layers.first().map(|layer| 2.0 * layer.thickness) }
     }
 }
 
 impl Response for LayeredBody {
     fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64 {
         let q = qx.hypot(qy);
-        if q == 0.0 { 0.0 } else { self.stack.response(q).normal }
+        if q == 0.0 { 0.0 } else { self.stack.normal(q) }
     }
 
     fn influence(&self, pitch: [Metre; 2]) -> Box<dyn Influence> {
-        self.layering.influence(|q| self.stack.response(q).normal, pitch)
+        let short = self.surface.normal;
+        match self.depth {
+            None => Box::new(move |x, y| short * normal_displacement(x, y, pitch, 1.0)),
+            Some(depth) => Layering { short, long: 0.5 * self.stack.long().normal, depth }
+                .influence(|q| self.stack.normal(q), pitch),
+        }
+    }
+
+    fn coupled(&self) -> Option<&dyn CoupledResponse> {
+        Some(self)
+    }
+}
+
+impl CoupledResponse for LayeredBody {
+    fn couples(&self) -> bool {
+        true
+    }
+
+    fn harmonic_displacements(&self, qx: f64, qy: f64) -> Coefficients {
+        let q = qx.hypot(qy);
+        if q == 0.0 {
+            return Coefficients { xx: 0.0, xy: 0.0, yy: 0.0, zx: 0.0, zy: 0.0, zz: 0.0 };
+        }
+        let [cos, sin] = [qx / q, qy / q];
+        let wave = self.stack.response(q);
+        Coefficients {
+            xx: wave.along * cos * cos + wave.across * sin * sin,
+            xy: (wave.along - wave.across) * cos * sin,
+            yy: wave.along * sin * sin + wave.across * cos * cos,
+            zx: -wave.coupling * cos,
+            zy: -wave.coupling * sin,
+            zz: wave.normal,
+        }
+    }
+
+    fn coupled_influence(&self, pitch: [Metre; 2]) -> Box<CoupledInfluence> {
+        let Some(depth) = self.depth else { return self.surface.coupled_influence(pitch) };
+        let (surface, normal) = (self.surface, self.influence(pitch));
+        let below = BelowSurface::new(&self.stack, depth, pitch);
+        Box::new(move |x, y| {
+            let half_space = coupled_displacement(x, y, pitch, &surface);
+            let [xx, xy, yy, zx, zy] = below.coefficients(x, y);
+            Coefficients {
+                xx: half_space.xx + xx,
+                xy: half_space.xy + xy,
+                yy: half_space.yy + yy,
+                zx: half_space.zx + zx,
+                zy: half_space.zy + zy,
+                zz: normal.displacement(x, y),
+            }
+        })
+    }
+}
+
+/// Displacements under the shear on a cell, and along the surface under the pressure on it, minus those of a half-space of
+/// the material at the surface.
+///
+/// As in [`Layering`], the waves û = along, across and coupling are that half-space, the potential at the depth d, and a
+/// remainder. With ρ and w of along and across, and φ and γ of coupling (see [`Transform`]) the displacements under a
+/// point load are
+///
+/// ```text
+/// xx = [w + (ρ − 2w) x²/r²]_along + [w + (ρ − 2w) y²/r²]_across      xy = [(ρ − 2w)_along − (ρ − 2w)_across] xy/r²
+/// zx = γ x/r = −∂φ/∂x
+/// ```
+/// They are derivatives of xw, yw and φ, so that those of a cell are integrals along its sides.
+struct BelowSurface {
+    depth: Metre,
+    half: [Metre; 2],
+    /// Along, across and coupling: the tables, and the amplitude of the potential at the depth d.
+    parts: [(Remainder, f64); 3],
+    nodes: Vec<(f64, f64)>,
+}
+
+impl BelowSurface {
+    fn new(stack: &Stack, depth: Metre, pitch: [Metre; 2]) -> Self {
+        let waves = |q: f64| {
+            let wave = stack.response(q);
+            [wave.along, wave.across, wave.coupling]
+        };
+        let [short, long] =
+            [stack.short(), stack.long()].map(|wave| [wave.along, wave.across, wave.coupling]);
+        let rest = |q: f64| {
+            let (waves, image) = (waves(q), (-q * depth).exp());
+            std::array::from_fn(|n| waves[n] - (short[n] + (long[n] - short[n]) * image) / q)
+        };
+        let tables = Remainder::several(rest, [Transform::EVEN, Transform::EVEN, Transform::ODD], depth);
+        let images = std::array::from_fn::<_, 3, _>(|n| (long[n] - short[n]) / (2.0 * PI));
+        let mut images = images.into_iter();
+        let parts = tables.map(|table| (table, images.next().expect("an image each")));
+        Self { depth, half: pitch.map(|p| 0.5 * p), parts, nodes: gauss_legendre(16) }
+    }
+
+    /// Returns xx, xy, yy, zx and zy.
+    fn coefficients(&self, x: Metre, y: Metre) -> [f64; 5] {
+        let closed = |x: f64, y: f64| {
+            let along_y = along_side(x, y, self.depth, &self.nodes, |r, _| {
+                [self.mean(0, r), self.mean(1, r), self.potential(r)]
+            });
+            let along_x = along_side(y, x, self.depth, &self.nodes, |r, s| {
+                let [along, across] = [self.mean(0, r), self.mean(1, r)];
+                [along, across, self.potential(r), s * (along - across)]
+            });
+            [
+                x * along_y[0] + y * along_x[1],
+                along_x[3],
+                y * along_x[0] + x * along_y[1],
+                -along_y[2],
+                -along_x[2],
+            ]
+        };
+        integrals_below([x, y], self.depth, self.half, closed, |x, y| self.point([x, y]))
+    }
+
+    /// Returns the coefficients under a point load.
+    fn point(&self, [x, y]: [Metre; 2]) -> [f64; 5] {
+        let r = x.hypot(y);
+        let [c, s] = if r == 0.0 { [0.0; 2] } else { [x / r, y / r] };
+        let [[w, turned], [w_across, turned_across]] = [0, 1].map(|part| {
+            let w = self.mean(part, r);
+            [w, self.density(part, r) - 2.0 * w]
+        });
+        let slope = self.slope(r);
+        [
+            w + turned * c * c + w_across + turned_across * s * s,
+            (turned - turned_across) * c * s,
+            w + turned * s * s + w_across + turned_across * c * c,
+            slope * c,
+            slope * s,
+        ]
+    }
+
+    /// ρ of a part.
+    fn density(&self, part: usize, r: Metre) -> f64 {
+        let (table, image) = &self.parts[part];
+        table.first(r) + image / r.hypot(self.depth)
+    }
+
+    /// w of a part.
+    fn mean(&self, part: usize, r: Metre) -> f64 {
+        let (table, image) = &self.parts[part];
+        table.second(r) + image / (r.hypot(self.depth) + self.depth)
+    }
+
+    /// φ.
+    fn potential(&self, r: Metre) -> f64 {
+        let (table, image) = &self.parts[2];
+        table.first(r) - image * (0.5 * (1.0 + r.hypot(self.depth) / self.depth)).ln()
+    }
+
+    /// γ.
+    fn slope(&self, r: Metre) -> f64 {
+        let (table, image) = &self.parts[2];
+        let far = r.hypot(self.depth);
+        table.second(r) + image * r / (far * (far + self.depth))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::{PI, TAU};
+    use std::f64::consts::TAU;
 
     use approx::assert_relative_eq;
 
     use super::*;
-    use crate::kernel::normal_displacement;
+    use crate::grid::Field;
+    use crate::kernel::coupled_matrix;
     use crate::material::Coating;
-    use crate::math::gauss_legendre;
+    use crate::math::Cholesky;
 
     const RIGID: f64 = f64::INFINITY;
 
-    fn coated([young, poisson]: [f64; 2], thickness: f64, layer: [f64; 2]) -> LayeredBody {
-        let base = Material::elastic(young, poisson).unwrap();
-        LayeredBody::new(&base.coated(Coating::new(thickness, layer[0], layer[1]).unwrap()))
+    fn coated(base: [f64; 2], thickness: f64, layer: [f64; 2]) -> LayeredBody {
+        layered(base, &[[thickness, layer[0], layer[1]]])
+    }
+
+    fn layered([young, poisson]: [f64; 2], layers: &[[f64; 3]]) -> LayeredBody {
+        let layers = layers.iter().map(|[t, young, poisson]| Coating::new(*t, *young, *poisson).unwrap());
+        LayeredBody::new(&Material::elastic(young, poisson).unwrap().layered(layers.collect()))
     }
 
     impl LayeredBody {
@@ -174,61 +382,127 @@ mod tests {
         .budget_ms(300);
     }
 
-    /// Computes the displacement minus that of a half-space of the layer material, by a sum over all
-    /// directions and wavenumbers of the remaining harmonics. It is slow, and independent of the closed forms
-    /// and tables.
-    fn beyond_the_layer(body: &LayeredBody, at: [f64; 2], pitch: [f64; 2]) -> f64 {
-        let short = body.layering.short;
-        let end = 45.0 / body.layering.depth;
+    /// Computes the coefficients xx, xy, yy, zx, zy and zz minus those of a half-space of the material at the surface, by a
+    /// sum over all directions and wavenumbers of the remaining harmonics. It is slow, and independent of the closed
+    /// forms and tables.
+    fn beyond_the_layer(body: &LayeredBody, at: [f64; 2], pitch: [f64; 2]) -> [f64; 6] {
+        let depth = body.depth.unwrap();
+        let end = 45.0 / depth;
         let reach = (at[0] + 0.5 * pitch[0]).hypot(at[1] + 0.5 * pitch[1]);
         let sinc = |x: f64| if x == 0.0 { 1.0 } else { x.sin() / x };
         let nodes = gauss_legendre(10);
-        let mut sum = 0.0;
-        let mut start = 1e-13 / reach.max(0.5 * body.layering.depth);
+        let mut sums = [0.0; 6];
+        let mut start = 1e-13 / reach.max(0.5 * depth);
         while start < end {
-            let half = 0.5 * start.min(3.0 / reach).min(3.0 / body.layering.depth);
+            let half = 0.5 * start.min(3.0 / reach).min(3.0 / depth);
             for (node, weight) in &nodes {
                 let q = start + half * (1.0 + node);
+                let wave = body.stack.response(q);
+                let surface = body.stack.short();
+                let [along, across, coupling, normal] = [
+                    wave.along - surface.along / q,
+                    wave.across - surface.across / q,
+                    wave.coupling - surface.coupling / q,
+                    wave.normal - surface.normal / q,
+                ];
                 let directions = 40 + (1.5 * q * reach) as usize;
-                let mean: f64 = (0..directions)
-                    .map(|k| {
-                        let (sin, cos) = (0.5 * PI * (k as f64 + 0.5) / directions as f64).sin_cos();
-                        let wave = [q * cos, q * sin];
-                        (0..2)
-                            .map(|i| sinc(0.5 * wave[i] * pitch[i]) * (wave[i] * at[i]).cos())
-                            .product::<f64>()
-                    })
-                    .sum();
-                let left = body.harmonic(q) - 2.0 * short / q;
-                sum += weight * half * q * left * mean / directions as f64;
+                let scale = weight * half * q / directions as f64;
+                for k in 0..directions {
+                    let (sin, cos) = (0.5 * PI * (k as f64 + 0.5) / directions as f64).sin_cos();
+                    let phase = [q * cos * at[0], q * sin * at[1]];
+                    let cell = sinc(0.5 * q * cos * pitch[0]) * sinc(0.5 * q * sin * pitch[1]);
+                    let even = cell * phase[0].cos() * phase[1].cos();
+                    let values = [
+                        (along * cos * cos + across * sin * sin) * even,
+                        -(along - across) * cos * sin * cell * phase[0].sin() * phase[1].sin(),
+                        (along * sin * sin + across * cos * cos) * even,
+                        coupling * cos * cell * phase[0].sin() * phase[1].cos(),
+                        coupling * sin * cell * phase[0].cos() * phase[1].sin(),
+                        normal * even,
+                    ];
+                    sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += scale * value);
+                }
             }
             start += 2.0 * half;
         }
-        sum * pitch[0] * pitch[1] / TAU
+        sums.map(|sum| sum * pitch[0] * pitch[1] / TAU)
     }
 
     #[test]
     fn its_cells_are_the_sum_of_its_harmonics_whatever_the_thickness() {
-        for (base, thickness, layer) in BODIES {
+        let stacks: [([f64; 2], &[[f64; 3]]); 3] = [
+            ([1.0, 0.3], &[[0.3, 5.0, 0.2], [0.05, 0.4, 0.45], [2.0, 2.0, 0.5]]),
+            ([RIGID, 0.0], &[[1.0, 2.0, 0.3], [1.5, 0.5, 0.5]]),
+            ([4.0, 0.1], &[[0.2, 1.0, 0.3], [0.2, 2.0, 0.3], [0.2, 3.0, 0.2], [9.0, 0.7, 0.4]]),
+        ];
+        let bodies = BODIES.map(|(base, thickness, layer)| coated(base, thickness, layer));
+        let bodies = bodies.into_iter().chain(stacks.map(|(base, layers)| layered(base, layers)));
+        for body in bodies {
+            let thickness = 0.5 * body.depth.unwrap();
             for pitch in [[1.0, 1.0], [0.05, 0.03], [12.0, 5.0], [0.3, 4.0]].map(|p| p.map(|p| p * thickness))
             {
-                let body = coated(base, thickness, layer);
-                let influence = body.influence(pitch);
-                let love = |x, y| body.layering.short * normal_displacement(x, y, pitch, 1.0);
-                let own = influence.displacement(0.0, 0.0);
+                let (influence, normal) = (body.coupled_influence(pitch), body.influence(pitch));
+                let half_space = |x, y| coupled_displacement(x, y, pitch, &body.surface);
+                let own = normal.displacement(0.0, 0.0);
                 assert!(own > 0.0, "{body:?}, {pitch:?}");
-                for cells in [[0.0, 0.0], [1.0, 0.0], [2.0, 3.0], [9.0, 5.0]] {
+                // The slow sum takes the longer, the larger the cells.
+                let all = [[0.0, 0.0], [1.0, 0.0], [2.0, 3.0], [9.0, 5.0]];
+                for cells in &all[..if pitch[0] > 2.0 * thickness { 2 } else { 4 }] {
                     let [x, y] = [0, 1].map(|axis| cells[axis] * pitch[axis]);
                     let slow = beyond_the_layer(&body, [x, y], pitch);
-                    let fast = influence.displacement(x, y) - love(x, y);
-                    let scale = own.max(love(0.0, 0.0));
-                    assert!(
-                        (slow - fast).abs() < 1e-10 * scale,
-                        "{body:?}, {pitch:?}, {cells:?}: {fast:e}, {slow:e}, {:e} of {scale:e}",
-                        slow - fast
-                    );
+                    let (at, surface) = (influence(x, y), half_space(x, y));
+                    let fast = [
+                        at.xx - surface.xx,
+                        at.xy - surface.xy,
+                        at.yy - surface.yy,
+                        at.zx - surface.zx,
+                        at.zy - surface.zy,
+                        normal.displacement(x, y) - surface.zz,
+                    ];
+                    assert_eq!(at.zz, normal.displacement(x, y));
+                    let scale = own.max(half_space(0.0, 0.0).xx);
+                    for (n, (slow, fast)) in slow.into_iter().zip(fast).enumerate() {
+                        assert!(
+                            (slow - fast).abs() < 1e-10 * scale,
+                            "{body:?}, {pitch:?}, {cells:?}, {n}: {fast:e}, {slow:e}, {:e} of {scale:e}",
+                            slow - fast
+                        );
+                    }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn layers_alike_are_the_half_space_in_every_coefficient() {
+        let base = Material::elastic(2.0, 0.3).unwrap();
+        let compliances = Compliances::new(&base, &Material::elastic(RIGID, 0.3).unwrap()).unwrap();
+        let body = layered([2.0, 0.3], &[[0.1, 2.0, 0.3]; 20]);
+        let pitch = [0.3, 0.5];
+        let influence = body.coupled_influence(pitch);
+        let own = coupled_displacement(0.0, 0.0, pitch, &compliances).xx;
+        for [x, y] in [[0.0, 0.0], [0.3, -0.5], [-6.0, 0.5], [40.0, 90.0]] {
+            let (found, expected) = (influence(x, y), coupled_displacement(x, y, pitch, &compliances));
+            for (found, expected) in found.matrix().iter().flatten().zip(expected.matrix().iter().flatten()) {
+                assert!((found - expected).abs() < 1e-12 * own, "{x}, {y}: {found:e} and {expected:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_matrix_of_all_cells_of_layers_is_positive_definite() {
+        let soft = Material::elastic(1.0, 0.3).unwrap().coated(Coating::new(0.5, 20.0, 0.2).unwrap());
+        let rubber = Material::elastic(RIGID, 0.0).unwrap().coated(Coating::new(1.5, 1.0, 0.5).unwrap());
+        let rigid = Material::elastic(RIGID, 0.0).unwrap();
+        for (lower, upper) in [(&soft, &rigid), (&rubber, &rigid), (&soft, &rubber), (&soft, &soft)] {
+            let pair = response(lower, upper).unwrap();
+            let coupled = pair.coupled().unwrap();
+            assert_eq!(coupled.couples(), lower != upper);
+            let dense = coupled_matrix([6, 5], [1.0, 0.7], coupled);
+            assert_eq!(dense, dense.t());
+            let least = 1e-3 * dense[[0, 0]];
+            let shifted = &dense - &(Field::eye(dense.nrows()) * least);
+            assert!(Cholesky::new(shifted).is_some(), "an eigenvalue is not above {least:e}");
         }
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::kernel::cell::integral_below;
 use crate::kernel::{Influence, normal_displacement};
-use crate::math::gauss_legendre;
+use crate::math::{gauss_legendre, parallel};
 use crate::units::Metre;
 
 /// Isotropic layered bodies with known harmonics. Short waves have the response of one half-space, long waves
@@ -36,10 +36,10 @@ impl Layering {
     ///
     /// The error is below 1e-11 of the displacement of a cell under its own pressure if û(q) is as exact and
     /// a smooth function of ln q. This holds for any ratio of cell size to depth.
-    pub fn influence(&self, harmonics: impl Fn(f64) -> f64, pitch: [Metre; 2]) -> Box<dyn Influence> {
+    pub fn influence(&self, harmonics: impl Fn(f64) -> f64 + Sync, pitch: [Metre; 2]) -> Box<dyn Influence> {
         let &Self { short, long, depth } = self;
         let rest = |q: f64| harmonics(q) - 2.0 / q * (short + (long - short) * (-q * depth).exp());
-        let remainder = Remainder::new(rest, depth);
+        let [remainder] = Remainder::several(|q| [rest(q)], [Transform::EVEN], depth);
         Box::new(Layered { layering: *self, pitch, remainder })
     }
 }
@@ -62,7 +62,7 @@ impl Influence for Layered {
                 *depth,
                 half,
                 |x, y| image * potential_below(x, y, *depth) + remainder.of_rectangle(x, y),
-                |x, y| below(x, y) + remainder.at(x, y),
+                |x, y| below(x, y) + remainder.first(x.hypot(y)),
             )
     }
 }
@@ -74,18 +74,50 @@ fn potential_below(x: f64, y: f64, z: f64) -> f64 {
     x * (y / across).asinh() + y * (x / along).asinh() - z * (x * y / (z * r)).atan()
 }
 
-/// The Hankel transform ρ(r) of a remainder, and its mean w within r,
+/// Radial functions of a remainder R(q), see [`Transform`], tabulated over asinh(r/d).
 ///
-/// ```text
-/// ρ(r) = ∫ R(q) q J₀(qr) dq/2π        w(r) = ∫₀^r ρ(s) s ds/r² = ∫ R(q) q J₁(qr)/(qr) dq/2π
-/// ```
-///
-/// Both are multiplied by r² + d², and are then bounded and smooth in asinh(r/d).
-struct Remainder {
+/// Each is multiplied by a power of r² + d², and is then bounded and smooth.
+pub(super) struct Remainder {
     depth: Metre,
+    transforms: [Transform; 2],
     /// Chebyshev coefficients of both, for each interval of unit width in asinh(r/d).
     pieces: Vec<[[f64; ORDER]; 2]>,
     nodes: Vec<(f64, f64)>,
+}
+
+/// A transform of a remainder R(q).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Transform {
+    /// ρ(r) = ∫ R(q) J₀(qr) q dq/2π.
+    Hankel,
+    /// Mean of ρ within r, w(r) = ∫₀^r ρ(s) s ds/r² = ∫ R(q) J₁(qr)/(qr) q dq/2π.
+    Mean,
+    /// φ(r) = ∫ R(q) J₀(qr) dq/2π.
+    Potential,
+    /// γ(r) = −φ′(r) = ∫ R(q) J₁(qr) q dq/2π.
+    Slope,
+}
+
+impl Transform {
+    /// ρ and w, both multiplied by r² + d².
+    pub(super) const EVEN: [Self; 2] = [Self::Hankel, Self::Mean];
+    /// φ and γ, multiplied by √(r² + d²) and r² + d².
+    pub(super) const ODD: [Self; 2] = [Self::Potential, Self::Slope];
+
+    /// Returns the factor of the tabulated values, for r² + d².
+    fn power(self, squared: f64) -> f64 {
+        if self == Self::Potential { squared.sqrt() } else { squared }
+    }
+
+    /// The integrand over R(q), at x = qr.
+    fn weight(self, q: f64, x: f64) -> f64 {
+        match self {
+            Self::Hankel => q * libm::j0(x),
+            Self::Mean => q * if x < 1e-4 { 0.5 } else { libm::j1(x) / x },
+            Self::Potential => libm::j0(x),
+            Self::Slope => q * libm::j1(x),
+        }
+    }
 }
 
 /// Number of Chebyshev coefficients of an interval. The nearest singularity, at a distance of ±iπ/2, gives an
@@ -95,51 +127,54 @@ const ORDER: usize = 18;
 const PIECES: usize = 13;
 
 impl Remainder {
-    fn new(rest: impl Fn(f64) -> f64, depth: Metre) -> Self {
+    /// Tabulates two transforms of each of the remainders `rest` = R(q), which have the same scale.
+    pub(super) fn several<const N: usize>(
+        rest: impl Fn(f64) -> [f64; N] + Sync,
+        transforms: [[Transform; 2]; N],
+        depth: Metre,
+    ) -> [Self; N] {
         let nodes = gauss_legendre(16);
-        let pieces = (0..PIECES)
-            .map(|piece| {
-                let values: [[f64; 2]; ORDER] = std::array::from_fn(|k| {
-                    let r = depth * (piece as f64 + 0.5 + 0.5 * chebyshev_angle(k).cos()).sinh();
-                    hankel(&rest, r, depth, &nodes).map(|value| value * (r * r + depth * depth))
-                });
-                [0, 1].map(|which| chebyshev(|k| values[k][which]))
-            })
-            .collect();
-        Self { depth, pieces, nodes }
+        let pieces = parallel::tasks(0..PIECES, |piece| {
+            let values: [[[f64; 2]; N]; ORDER] = std::array::from_fn(|k| {
+                let r = depth * (piece as f64 + 0.5 + 0.5 * chebyshev_angle(k).cos()).sinh();
+                hankel(&rest, transforms, r, depth, &nodes)
+            });
+            std::array::from_fn::<_, N, _>(|n| [0, 1].map(|which| chebyshev(|k| values[k][n][which])))
+        });
+        std::array::from_fn(|n| Self {
+            depth,
+            transforms: transforms[n],
+            pieces: pieces.iter().map(|pieces| pieces[n]).collect(),
+            nodes: nodes.clone(),
+        })
     }
 
-    /// Returns ρ at the distance of `(x, y)`.
-    fn at(&self, x: Metre, y: Metre) -> f64 {
-        let squared = x * x + y * y;
-        let (value, beyond) = self.scaled(squared.sqrt(), 0);
-        value * beyond / (squared + self.depth * self.depth)
+    /// Returns the first transform, ρ or φ, at the distance r.
+    pub(super) fn first(&self, r: Metre) -> f64 {
+        let (value, beyond) = self.scaled(r, 0);
+        let beyond = if self.transforms[0] == Transform::Hankel { beyond } else { 1.0 };
+        value * beyond / self.transforms[0].power(r * r + self.depth * self.depth)
+    }
+
+    /// Returns the second transform, w or γ, at the distance r.
+    pub(super) fn second(&self, r: Metre) -> f64 {
+        self.scaled(r, 1).0 / (r * r + self.depth * self.depth)
     }
 
     /// Computes ∬ ρ over 0 … x and 0 … y. In polar coordinates it is the integral of r² w over the angle.
-    /// Each of the two far sides contributes ∫ c w(√(c² + s²)) ds with its distance c and s = √(c² + d²) sinh
-    /// v.
+    /// Each of the two far sides contributes ∫ c w(√(c² + s²)) ds with its distance c.
     fn of_rectangle(&self, x: Metre, y: Metre) -> f64 {
         let side = |c: f64, length: f64| {
-            let scale = c.hypot(self.depth);
-            let end = (length / scale).asinh();
-            let panels = end.abs().ceil().max(1.0);
-            let half = 0.5 * end / panels;
-            let mut sum = 0.0;
-            for panel in 0..panels as usize {
-                for &(node, weight) in &self.nodes {
-                    let v = half * ((2 * panel + 1) as f64 + node);
-                    let r = c.hypot(scale * v.sinh());
-                    sum += weight * self.scaled(r, 1).0 / v.cosh();
-                }
-            }
-            sum * half * c / scale
+            let [sum] = along_side(c, length, self.depth, &self.nodes, |r, _| {
+                [self.scaled(r, 1).0 / (r * r + self.depth * self.depth)]
+            });
+            c * sum
         };
         side(x, y) + side(y, x)
     }
 
-    /// Returns (r² + d²) times ρ or w. For r beyond the table it also returns d/r, by which ρ decays further,
-    /// but not w.
+    /// Returns a transform times its power. For r beyond the table it also returns d/r, by which ρ decays further,
+    /// but none of the others.
     fn scaled(&self, r: Metre, which: usize) -> (f64, f64) {
         let s = (r / self.depth).asinh();
         let end = PIECES as f64;
@@ -149,12 +184,43 @@ impl Remainder {
     }
 }
 
-/// Computes `[ρ, w]` at `r` by Gauss' rule on panels that grow with q up to a few oscillations.
+/// Computes ∫ f(√(c² + s²), s) ds over 0 … `length` of functions that are smooth on the scale `depth`, with s = √(c² + d²) sinh v.
+pub(super) fn along_side<const N: usize>(
+    c: Metre,
+    length: Metre,
+    depth: Metre,
+    nodes: &[(f64, f64)],
+    f: impl Fn(Metre, Metre) -> [f64; N],
+) -> [f64; N] {
+    let scale = c.hypot(depth);
+    let end = (length / scale).asinh();
+    let panels = end.abs().ceil().max(1.0);
+    let half = 0.5 * end / panels;
+    let mut sums = [0.0; N];
+    for panel in 0..panels as usize {
+        for &(node, weight) in nodes {
+            let v = half * ((2 * panel + 1) as f64 + node);
+            let s = scale * v.sinh();
+            let values = f(c.hypot(s), s);
+            sums = std::array::from_fn(|n| sums[n] + weight * v.cosh() * values[n]);
+        }
+    }
+    sums.map(|sum| sum * half * scale)
+}
+
+/// Computes transforms of several remainders at `r`, times their powers of r² + d², by Gauss' rule on panels that grow
+/// with q up to a few oscillations.
 ///
 /// At large r only the first oscillations contribute. The integrand is then tapered over many oscillations,
 /// which changes its transform by less than rounding.
-fn hankel(rest: &impl Fn(f64) -> f64, r: Metre, depth: Metre, nodes: &[(f64, f64)]) -> [f64; 2] {
-    /// Lower limit of the integral, in units of 1/r and 1/d. The omitted part is below its square.
+fn hankel<const N: usize>(
+    rest: &impl Fn(f64) -> [f64; N],
+    transforms: [[Transform; 2]; N],
+    r: Metre,
+    depth: Metre,
+    nodes: &[(f64, f64)],
+) -> [[f64; 2]; N] {
+    /// Lower limit of the integral, in units of 1/r and 1/d. Below it the integrand is that at the limit.
     const FIRST: f64 = 1e-7;
     /// e^(−qd) is less than 1e-19.
     const LAST: f64 = 45.0;
@@ -165,20 +231,28 @@ fn hankel(rest: &impl Fn(f64) -> f64, r: Metre, depth: Metre, nodes: &[(f64, f64
     let longest = PHASE / r.max(depth);
     let end = (LAST / depth).min((FADE[0] + 6.0 * FADE[1]) / r);
     let mut start = FIRST / r.max(depth);
-    let mut sums = [0.0; 2];
+    let mut sums = [[0.0; 2]; N];
+    let mut add = |q: f64, width: f64| {
+        let values = rest(q);
+        for n in 0..N {
+            for which in 0..2 {
+                sums[n][which] += width * values[n] * transforms[n][which].weight(q, q * r);
+            }
+        }
+    };
+    add(0.5 * start, start);
     while start < end {
         let half = 0.5 * start.min(longest).min(end - start);
         for &(node, weight) in nodes {
             let q = start + half * (1.0 + node);
-            let x = q * r;
-            let first = if x < 1e-4 { 0.5 } else { libm::j1(x) / x };
-            let fade = 0.5 * libm::erfc((x - FADE[0]) / FADE[1]);
-            let value = weight * half * rest(q) * q * fade / (2.0 * PI);
-            sums = [sums[0] + value * libm::j0(x), sums[1] + value * first];
+            add(q, weight * half * 0.5 * libm::erfc((q * r - FADE[0]) / FADE[1]));
         }
         start += 2.0 * half;
     }
-    sums
+    let squared = r * r + depth * depth;
+    std::array::from_fn(|n| {
+        [0, 1].map(|which| sums[n][which] * transforms[n][which].power(squared) / (2.0 * PI))
+    })
 }
 
 /// Returns the angle of the k-th node of an interval.

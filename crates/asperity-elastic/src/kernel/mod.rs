@@ -20,6 +20,6 @@ pub use layered::{LayeredBody, response};
 pub use layering::Layering;
 pub use line::Line;
 pub use normal::{influence_matrix, influence_table, normal_displacement, normal_displacements_across};
-pub use response::{Influence, Response, SharedResponse};
+pub use response::{CoupledInfluence, CoupledResponse, Influence, Response, SharedResponse};
 pub use stack::{Stack, Wave, potential_compliance};
 pub use subsurface::{Traction, cell_stress, harmonic_stress, stress_table};

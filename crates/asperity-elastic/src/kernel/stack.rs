@@ -69,10 +69,19 @@ impl Stack {
         Self { layers: layers.collect(), base: elastic(material.young, material.poisson) }
     }
 
+    /// Computes the normal displacement under the pressure of a wave of wavenumber q > 0, m/Pa.
+    pub fn normal(&self, q: f64) -> f64 {
+        self.plane(q)[1][1] / q
+    }
+
+    fn plane(&self, q: f64) -> Plane {
+        let below = self.base.half_space();
+        self.layers.iter().rev().fold(below, |below, layer| layer.under(q, below))
+    }
+
     /// Computes the response to a wave of wavenumber q > 0.
     pub fn response(&self, q: f64) -> Wave {
-        let below = self.base.half_space();
-        let plane = self.layers.iter().rev().fold(below, |below, layer| layer.under(q, below));
+        let plane = self.plane(q);
         let layers = self.layers.iter().rev().map(|layer| (layer.thickness, layer.elastic.shear));
         Wave {
             along: plane[0][0] / q,
@@ -147,7 +156,9 @@ fn under_thin(x: f64, poisson: f64, below: Plane) -> Plane {
 
 /// Returns the blocks of e^(Ax): displacements u and tractions t at the depth x from those at the surface.
 fn solution(x: f64, poisson: f64) -> [[Plane; 2]; 2] {
-    let (sinh, cosh, odd) = (x.sinh(), x.cosh(), odd_rest(x));
+    let growing = x.exp();
+    let (cosh, odd) = (0.5 * (growing + growing.recip()), odd_rest(x));
+    let sinh = x * cosh - odd;
     let k = 0.25 / (1.0 - poisson);
     let even = k * x * sinh;
     let [shear, squeeze] = [4.0 * k * poisson * sinh + 2.0 * k * odd, sinh + 2.0 * k * odd];
@@ -196,18 +207,16 @@ fn stiffness(x: f64, poisson: f64) -> [Plane; 3] {
     ]
 }
 
-/// x cosh x − sinh x.
+/// Computes x cosh x − sinh x for x up to [`THICK`], by its series Σ 2n x^(2n + 1)/(2n + 1)!.
 fn odd_rest(x: f64) -> f64 {
-    if x > 1.0 {
-        return x * x.cosh() - x.sinh();
+    let square = x * x;
+    // Σ over n from the last term that counts, each over the one before.
+    let mut sum = 0.0;
+    for n in (1..=8).rev() {
+        let n = f64::from(n);
+        sum = 1.0 + square / (2.0 * n * (2.0 * n + 3.0)) * sum;
     }
-    let (mut power, mut sum, mut n) = (x * x * x / 6.0, 0.0, 1.0);
-    while power > f64::EPSILON * sum {
-        sum += 2.0 * n * power;
-        n += 1.0;
-        power *= x * x / (2.0 * n * (2.0 * n + 1.0));
-    }
-    sum
+    x * square / 3.0 * sum
 }
 
 const IDENTITY: Plane = [[1.0, 0.0], [0.0, 1.0]];

@@ -180,11 +180,6 @@ impl Compliances {
         if self.normal == 0.0 { 0.0 } else { self.coupling / self.normal }
     }
 
-    /// Whether a pressure displaces tangentially and a shear normally.
-    pub fn couples(&self) -> bool {
-        self.coupling != 0.0
-    }
-
     /// Returns the compliances without coupling between normal and tangential tractions.
     pub fn uncoupled(&self) -> Self {
         Self { coupling: 0.0, ..*self }
