@@ -7,7 +7,7 @@ use crate::kernel::cell::integrals_below;
 use crate::kernel::layering::{Remainder, Transform, along_side};
 use crate::kernel::{
     Coefficients, CoupledInfluence, CoupledResponse, Influence, Layering, Response, SharedResponse, Stack,
-    coupled_displacement, normal_displacement,
+    Wave, coupled_displacement, normal_displacement,
 };
 use crate::material::{Compliances, Material};
 use crate::math::gauss_legendre;
@@ -183,39 +183,44 @@ impl CoupledResponse for LayeredBody {
 struct BelowSurface {
     depth: Metre,
     half: [Metre; 2],
-    /// Along, across and coupling: the tables, and the amplitude of the potential at the depth d.
-    parts: [(Remainder, f64); 3],
+    /// ρ and w of along, those of across, φ and γ.
+    table: Remainder<6>,
+    /// Amplitudes of the potentials at the depth d: along, across and coupling.
+    images: [f64; 3],
     nodes: Vec<(f64, f64)>,
 }
 
 impl BelowSurface {
     fn new(stack: &Stack, depth: Metre, pitch: [Metre; 2]) -> Self {
-        let waves = |q: f64| {
-            let wave = stack.response(q);
-            [wave.along, wave.across, wave.coupling]
-        };
-        let [short, long] =
-            [stack.short(), stack.long()].map(|wave| [wave.along, wave.across, wave.coupling]);
+        use Transform::{Hankel, Mean, Order, Potential};
+        let parts = |wave: Wave| [wave.along, wave.across, wave.coupling];
+        let [short, long] = [stack.short(), stack.long()].map(parts);
         let rest = |q: f64| {
-            let (waves, image) = (waves(q), (-q * depth).exp());
-            std::array::from_fn(|n| waves[n] - (short[n] + (long[n] - short[n]) * image) / q)
+            let (waves, image) = (parts(stack.response(q)), (-q * depth).exp());
+            let [along, across, coupling] =
+                [0, 1, 2].map(|n| waves[n] - (short[n] + (long[n] - short[n]) * image) / q);
+            [along, along, across, across, coupling, coupling]
         };
-        let tables = Remainder::several(rest, [Transform::EVEN, Transform::EVEN, Transform::ODD], depth);
-        let images = std::array::from_fn::<_, 3, _>(|n| (long[n] - short[n]) / (2.0 * PI));
-        let mut images = images.into_iter();
-        let parts = tables.map(|table| (table, images.next().expect("an image each")));
-        Self { depth, half: pitch.map(|p| 0.5 * p), parts, nodes: gauss_legendre(16) }
+        let transforms = [Hankel, Mean, Hankel, Mean, Potential, Order(1)];
+        Self {
+            depth,
+            half: pitch.map(|p| 0.5 * p),
+            table: Remainder::new(rest, transforms, depth, Metre::INFINITY),
+            images: [0, 1, 2].map(|n| (long[n] - short[n]) / (2.0 * PI)),
+            nodes: gauss_legendre(16),
+        }
     }
 
     /// Returns xx, xy, yy, zx and zy.
     fn coefficients(&self, x: Metre, y: Metre) -> [f64; 5] {
         let closed = |x: f64, y: f64| {
             let along_y = along_side(x, y, self.depth, &self.nodes, |r, _| {
-                [self.mean(0, r), self.mean(1, r), self.potential(r)]
+                let [_, along, _, across, potential, _] = self.at(r);
+                [along, across, potential]
             });
             let along_x = along_side(y, x, self.depth, &self.nodes, |r, s| {
-                let [along, across] = [self.mean(0, r), self.mean(1, r)];
-                [along, across, self.potential(r), s * (along - across)]
+                let [_, along, _, across, potential, _] = self.at(r);
+                [along, across, potential, s * (along - across)]
             });
             [
                 x * along_y[0] + y * along_x[1],
@@ -232,11 +237,8 @@ impl BelowSurface {
     fn point(&self, [x, y]: [Metre; 2]) -> [f64; 5] {
         let r = x.hypot(y);
         let [c, s] = if r == 0.0 { [0.0; 2] } else { [x / r, y / r] };
-        let [[w, turned], [w_across, turned_across]] = [0, 1].map(|part| {
-            let w = self.mean(part, r);
-            [w, self.density(part, r) - 2.0 * w]
-        });
-        let slope = self.slope(r);
+        let [density, w, density_across, w_across, _, slope] = self.at(r);
+        let [turned, turned_across] = [density - 2.0 * w, density_across - 2.0 * w_across];
         [
             w + turned * c * c + w_across + turned_across * s * s,
             (turned - turned_across) * c * s,
@@ -246,29 +248,20 @@ impl BelowSurface {
         ]
     }
 
-    /// ρ of a part.
-    fn density(&self, part: usize, r: Metre) -> f64 {
-        let (table, image) = &self.parts[part];
-        table.first(r) + image / r.hypot(self.depth)
-    }
-
-    /// w of a part.
-    fn mean(&self, part: usize, r: Metre) -> f64 {
-        let (table, image) = &self.parts[part];
-        table.second(r) + image / (r.hypot(self.depth) + self.depth)
-    }
-
-    /// φ.
-    fn potential(&self, r: Metre) -> f64 {
-        let (table, image) = &self.parts[2];
-        table.first(r) - image * (0.5 * (1.0 + r.hypot(self.depth) / self.depth)).ln()
-    }
-
-    /// γ.
-    fn slope(&self, r: Metre) -> f64 {
-        let (table, image) = &self.parts[2];
+    /// Returns ρ and w of along, those of across, φ and γ, with the potentials at the depth d.
+    fn at(&self, r: Metre) -> [f64; 6] {
+        let [along, across, coupling] = self.images;
+        let table = self.table.at(r);
         let far = r.hypot(self.depth);
-        table.second(r) + image * r / (far * (far + self.depth))
+        let images = [
+            along / far,
+            along / (far + self.depth),
+            across / far,
+            across / (far + self.depth),
+            -coupling * (0.5 * (1.0 + far / self.depth)).ln(),
+            coupling * r / (far * (far + self.depth)),
+        ];
+        std::array::from_fn(|n| table[n] + images[n])
     }
 }
 

@@ -39,7 +39,8 @@ impl Layering {
     pub fn influence(&self, harmonics: impl Fn(f64) -> f64 + Sync, pitch: [Metre; 2]) -> Box<dyn Influence> {
         let &Self { short, long, depth } = self;
         let rest = |q: f64| harmonics(q) - 2.0 / q * (short + (long - short) * (-q * depth).exp());
-        let [remainder] = Remainder::several(|q| [rest(q)], [Transform::EVEN], depth);
+        let both = |q: f64| [rest(q); 2];
+        let remainder = Remainder::new(both, [Transform::Hankel, Transform::Mean], depth, Metre::INFINITY);
         Box::new(Layered { layering: *self, pitch, remainder })
     }
 }
@@ -48,7 +49,7 @@ impl Layering {
 struct Layered {
     layering: Layering,
     pitch: [Metre; 2],
-    remainder: Remainder,
+    remainder: Remainder<2>,
 }
 
 impl Influence for Layered {
@@ -62,7 +63,7 @@ impl Influence for Layered {
                 *depth,
                 half,
                 |x, y| image * potential_below(x, y, *depth) + remainder.of_rectangle(x, y),
-                |x, y| below(x, y) + remainder.first(x.hypot(y)),
+                |x, y| below(x, y) + remainder.at(x.hypot(y))[0],
             )
     }
 }
@@ -74,36 +75,31 @@ fn potential_below(x: f64, y: f64, z: f64) -> f64 {
     x * (y / across).asinh() + y * (x / along).asinh() - z * (x * y / (z * r)).atan()
 }
 
-/// Radial functions of a remainder R(q), see [`Transform`], tabulated over asinh(r/d).
+/// Transforms of functions R(q), see [`Transform`], tabulated over asinh(r/d).
 ///
 /// Each is multiplied by a power of r² + d², and is then bounded and smooth.
-pub(super) struct Remainder {
+pub(super) struct Remainder<const N: usize> {
     depth: Metre,
-    transforms: [Transform; 2],
-    /// Chebyshev coefficients of both, for each interval of unit width in asinh(r/d).
-    pieces: Vec<[[f64; ORDER]; 2]>,
+    transforms: [Transform; N],
+    /// Chebyshev coefficients of all of them, for each interval of unit width in asinh(r/d).
+    pieces: Vec<[[f64; N]; ORDER]>,
     nodes: Vec<(f64, f64)>,
 }
 
-/// A transform of a remainder R(q).
+/// A transform of a function R(q).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Transform {
     /// ρ(r) = ∫ R(q) J₀(qr) q dq/2π.
     Hankel,
+    /// ∫ R(q) Jₙ(qr) q dq/2π, n > 0.
+    Order(i32),
     /// Mean of ρ within r, w(r) = ∫₀^r ρ(s) s ds/r² = ∫ R(q) J₁(qr)/(qr) q dq/2π.
     Mean,
     /// φ(r) = ∫ R(q) J₀(qr) dq/2π.
     Potential,
-    /// γ(r) = −φ′(r) = ∫ R(q) J₁(qr) q dq/2π.
-    Slope,
 }
 
 impl Transform {
-    /// ρ and w, both multiplied by r² + d².
-    pub(super) const EVEN: [Self; 2] = [Self::Hankel, Self::Mean];
-    /// φ and γ, multiplied by √(r² + d²) and r² + d².
-    pub(super) const ODD: [Self; 2] = [Self::Potential, Self::Slope];
-
     /// Returns the factor of the tabulated values, for r² + d².
     fn power(self, squared: f64) -> f64 {
         if self == Self::Potential { squared.sqrt() } else { squared }
@@ -113,9 +109,10 @@ impl Transform {
     fn weight(self, q: f64, x: f64) -> f64 {
         match self {
             Self::Hankel => q * libm::j0(x),
+            Self::Order(1) => q * libm::j1(x),
+            Self::Order(order) => q * libm::jn(order, x),
             Self::Mean => q * if x < 1e-4 { 0.5 } else { libm::j1(x) / x },
             Self::Potential => libm::j0(x),
-            Self::Slope => q * libm::j1(x),
         }
     }
 }
@@ -126,61 +123,52 @@ const ORDER: usize = 18;
 /// Number of intervals, until the remainder has decayed to d²/r² = 1e-10 of the other terms.
 const PIECES: usize = 13;
 
-impl Remainder {
-    /// Tabulates two transforms of each of the remainders `rest` = R(q), which have the same scale.
-    pub(super) fn several<const N: usize>(
+impl<const N: usize> Remainder<N> {
+    /// Tabulates a transform of each of the functions `rest` = R(q) of one scale, for distances up to `reach`.
+    pub(super) fn new(
         rest: impl Fn(f64) -> [f64; N] + Sync,
-        transforms: [[Transform; 2]; N],
+        transforms: [Transform; N],
         depth: Metre,
-    ) -> [Self; N] {
+        reach: Metre,
+    ) -> Self {
         let nodes = gauss_legendre(16);
-        let pieces = parallel::tasks(0..PIECES, |piece| {
-            let values: [[[f64; 2]; N]; ORDER] = std::array::from_fn(|k| {
+        let count = ((reach / depth).asinh() as usize).saturating_add(1).min(PIECES);
+        let pieces = parallel::tasks(0..count, |piece| {
+            let values: [[f64; N]; ORDER] = std::array::from_fn(|k| {
                 let r = depth * (piece as f64 + 0.5 + 0.5 * chebyshev_angle(k).cos()).sinh();
                 hankel(&rest, transforms, r, depth, &nodes)
             });
-            std::array::from_fn::<_, N, _>(|n| [0, 1].map(|which| chebyshev(|k| values[k][n][which])))
+            chebyshev(&values)
         });
-        std::array::from_fn(|n| Self {
-            depth,
-            transforms: transforms[n],
-            pieces: pieces.iter().map(|pieces| pieces[n]).collect(),
-            nodes: nodes.clone(),
+        Self { depth, transforms, pieces, nodes }
+    }
+
+    /// Returns the transforms at the distance r.
+    pub(super) fn at(&self, r: Metre) -> [f64; N] {
+        let s = (r / self.depth).asinh();
+        let end = self.pieces.len() as f64;
+        // Beyond the table ρ decays further, but none of the others.
+        let (s, beyond) = if s < end { (s, 1.0) } else { (end, self.depth * end.sinh() / r) };
+        let piece = (s as usize).min(self.pieces.len() - 1);
+        let values = clenshaw(&self.pieces[piece], 2.0 * (s - piece as f64) - 1.0);
+        let squared = r * r + self.depth * self.depth;
+        std::array::from_fn(|n| {
+            let beyond = if self.transforms[n] == Transform::Hankel { beyond } else { 1.0 };
+            values[n] * beyond / self.transforms[n].power(squared)
         })
     }
+}
 
-    /// Returns the first transform, ρ or φ, at the distance r.
-    pub(super) fn first(&self, r: Metre) -> f64 {
-        let (value, beyond) = self.scaled(r, 0);
-        let beyond = if self.transforms[0] == Transform::Hankel { beyond } else { 1.0 };
-        value * beyond / self.transforms[0].power(r * r + self.depth * self.depth)
-    }
-
-    /// Returns the second transform, w or γ, at the distance r.
-    pub(super) fn second(&self, r: Metre) -> f64 {
-        self.scaled(r, 1).0 / (r * r + self.depth * self.depth)
-    }
-
+/// ρ and w.
+impl Remainder<2> {
     /// Computes ∬ ρ over 0 … x and 0 … y. In polar coordinates it is the integral of r² w over the angle.
     /// Each of the two far sides contributes ∫ c w(√(c² + s²)) ds with its distance c.
     fn of_rectangle(&self, x: Metre, y: Metre) -> f64 {
         let side = |c: f64, length: f64| {
-            let [sum] = along_side(c, length, self.depth, &self.nodes, |r, _| {
-                [self.scaled(r, 1).0 / (r * r + self.depth * self.depth)]
-            });
+            let [sum] = along_side(c, length, self.depth, &self.nodes, |r, _| [self.at(r)[1]]);
             c * sum
         };
         side(x, y) + side(y, x)
-    }
-
-    /// Returns a transform times its power. For r beyond the table it also returns d/r, by which ρ decays further,
-    /// but none of the others.
-    fn scaled(&self, r: Metre, which: usize) -> (f64, f64) {
-        let s = (r / self.depth).asinh();
-        let end = PIECES as f64;
-        let (s, beyond) = if s < end { (s, 1.0) } else { (end, self.depth * end.sinh() / r) };
-        let piece = (s as usize).min(PIECES - 1);
-        (clenshaw(&self.pieces[piece][which], 2.0 * (s - piece as f64) - 1.0), beyond)
     }
 }
 
@@ -208,18 +196,18 @@ pub(super) fn along_side<const N: usize>(
     sums.map(|sum| sum * half * scale)
 }
 
-/// Computes transforms of several remainders at `r`, times their powers of r² + d², by Gauss' rule on panels that grow
-/// with q up to a few oscillations.
+/// Computes transforms at `r`, times their powers of r² + d², by Gauss' rule on panels that grow with q up to a few
+/// oscillations.
 ///
 /// At large r only the first oscillations contribute. The integrand is then tapered over many oscillations,
 /// which changes its transform by less than rounding.
 fn hankel<const N: usize>(
     rest: &impl Fn(f64) -> [f64; N],
-    transforms: [[Transform; 2]; N],
+    transforms: [Transform; N],
     r: Metre,
     depth: Metre,
     nodes: &[(f64, f64)],
-) -> [[f64; 2]; N] {
+) -> [f64; N] {
     /// Lower limit of the integral, in units of 1/r and 1/d. Below it the integrand is that at the limit.
     const FIRST: f64 = 1e-7;
     /// e^(−qd) is less than 1e-19.
@@ -231,13 +219,11 @@ fn hankel<const N: usize>(
     let longest = PHASE / r.max(depth);
     let end = (LAST / depth).min((FADE[0] + 6.0 * FADE[1]) / r);
     let mut start = FIRST / r.max(depth);
-    let mut sums = [[0.0; 2]; N];
+    let mut sums = [0.0; N];
     let mut add = |q: f64, width: f64| {
         let values = rest(q);
         for n in 0..N {
-            for which in 0..2 {
-                sums[n][which] += width * values[n] * transforms[n][which].weight(q, q * r);
-            }
+            sums[n] += width * values[n] * transforms[n].weight(q, q * r);
         }
     };
     add(0.5 * start, start);
@@ -250,9 +236,7 @@ fn hankel<const N: usize>(
         start += 2.0 * half;
     }
     let squared = r * r + depth * depth;
-    std::array::from_fn(|n| {
-        [0, 1].map(|which| sums[n][which] * transforms[n][which].power(squared) / (2.0 * PI))
-    })
+    std::array::from_fn(|n| sums[n] * transforms[n].power(squared) / (2.0 * PI))
 }
 
 /// Returns the angle of the k-th node of an interval.
@@ -260,21 +244,24 @@ fn chebyshev_angle(k: usize) -> f64 {
     PI * (k as f64 + 0.5) / ORDER as f64
 }
 
-/// Returns the coefficients of the polynomial with these values at the nodes.
-fn chebyshev(value: impl Fn(usize) -> f64) -> [f64; ORDER] {
-    std::array::from_fn(|n| {
-        let sum: f64 = (0..ORDER).map(|k| value(k) * (n as f64 * chebyshev_angle(k)).cos()).sum();
-        sum * if n == 0 { 1.0 } else { 2.0 } / ORDER as f64
+/// Returns the coefficients of the polynomials with these values at the nodes.
+fn chebyshev<const N: usize>(values: &[[f64; N]; ORDER]) -> [[f64; N]; ORDER] {
+    std::array::from_fn(|order| {
+        let scale = if order == 0 { 1.0 } else { 2.0 } / ORDER as f64;
+        std::array::from_fn(|n| {
+            let sum: f64 = (0..ORDER).map(|k| values[k][n] * (order as f64 * chebyshev_angle(k)).cos()).sum();
+            sum * scale
+        })
     })
 }
 
-/// Σ cₙ Tₙ(x).
-fn clenshaw(coefficients: &[f64; ORDER], x: f64) -> f64 {
-    let (mut one, mut two) = (0.0, 0.0);
+/// Σ cₙ Tₙ(x) of several polynomials.
+fn clenshaw<const N: usize>(coefficients: &[[f64; N]; ORDER], x: f64) -> [f64; N] {
+    let (mut one, mut two) = ([0.0; N], [0.0; N]);
     for c in coefficients[1..].iter().rev() {
-        (one, two) = (c + 2.0 * x * one - two, one);
+        (one, two) = (std::array::from_fn(|n| c[n] + 2.0 * x * one[n] - two[n]), one);
     }
-    coefficients[0] + x * one - two
+    std::array::from_fn(|n| coefficients[0][n] + x * one[n] - two[n])
 }
 
 #[cfg(test)]

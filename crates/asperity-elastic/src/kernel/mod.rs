@@ -11,6 +11,7 @@ pub mod normal;
 mod response;
 pub mod spectral;
 mod stack;
+mod stress_cells;
 pub mod subsurface;
 
 pub use coefficients::Coefficients;
@@ -21,5 +22,6 @@ pub use layering::Layering;
 pub use line::Line;
 pub use normal::{influence_matrix, influence_table, normal_displacement, normal_displacements_across};
 pub use response::{CoupledInfluence, CoupledResponse, Influence, Response, SharedResponse};
-pub use stack::{Stack, Wave, potential_compliance};
+pub use stack::{Stack, Wave, WaveStress, potential_compliance};
+pub use stress_cells::LayerCells;
 pub use subsurface::{Traction, cell_stress, harmonic_stress, stress_table};

@@ -1,6 +1,8 @@
 //! Response of bonded layers to one wave.
 
+use crate::kernel::Traction;
 use crate::material::Material;
+use crate::stress::Component;
 use crate::units::{Metre, Pascal};
 
 /// Bonded isotropic layers on a half-space or on a rigid base, under the traction of one wave on their surface.
@@ -100,6 +102,179 @@ impl Stack {
     pub fn long(&self) -> Wave {
         self.base.half_space_wave()
     }
+}
+
+/// Stresses of a wave at a depth per unit traction on the surface, dimensionless, along the wave ∥, along its crests ⊥ and
+/// along z. With a factor i are σ_∥z of the pressure, all but σ_∥z of the shear along the wave, and σ_∥⊥.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WaveStress {
+    /// ∥∥, ⊥⊥, zz and ∥z under a pressure.
+    pressure: [f64; 4],
+    /// The same under a shear along the wave.
+    along: [f64; 4],
+    /// ⊥z and ∥⊥ under a shear along the crests.
+    across: [f64; 2],
+}
+
+impl WaveStress {
+    /// Returns a component per unit traction of a wave in the direction `[cos, sin]`. It has a factor i if
+    /// [`Traction::odd`] is true for exactly one of x and y.
+    pub fn component(&self, [cos, sin]: [f64; 2], component: Component, traction: Traction) -> f64 {
+        let ([along, across], [own, crests, zz, own_z]) = match traction {
+            Traction::X => ([cos, -sin], self.along),
+            Traction::Y => ([sin, cos], self.along),
+            Traction::Pressure => ([1.0, 0.0], self.pressure),
+        };
+        let [own, crests, zz, own_z] = [own, crests, zz, own_z].map(|stress| along * stress);
+        let [crests_z, mixed] = self.across.map(|stress| across * stress);
+        match component {
+            Component::Xx => cos * cos * own + sin * sin * crests - 2.0 * cos * sin * mixed,
+            Component::Yy => sin * sin * own + cos * cos * crests + 2.0 * cos * sin * mixed,
+            Component::Zz => zz,
+            Component::Yz => sin * own_z + cos * crests_z,
+            Component::Xz => cos * own_z - sin * crests_z,
+            Component::Xy => cos * sin * (own - crests) + (cos * cos - sin * sin) * mixed,
+        }
+    }
+}
+
+impl Stack {
+    /// Returns a half-space of the material at the surface.
+    pub fn surface(&self) -> Self {
+        Self { layers: Vec::new(), base: self.layers.first().map_or(self.base, |layer| layer.elastic) }
+    }
+
+    /// Poisson's ratio of the body below the layers.
+    pub fn poisson(&self) -> f64 {
+        self.base.poisson
+    }
+
+    /// Returns the depth of the interface above each layer, and above the body below them, from the surface down.
+    pub fn interfaces(&self) -> Vec<Metre> {
+        let mut depth = 0.0;
+        let mut tops = vec![0.0];
+        tops.extend(self.layers.iter().map(|layer| {
+            depth += layer.thickness;
+            depth
+        }));
+        tops
+    }
+
+    /// Computes the stress of waves of wavenumber q ≥ 0 at a `depth` in a layer; the body below all layers is the last one. At
+    /// q = 0 the traction is uniform, and the body cannot widen. A rigid body has no stress.
+    ///
+    /// From the surface down the displacements at each interface follow from those above it. The tractions are taken from
+    /// the compliance of the body below, so that no solution that grows with depth comes in.
+    pub fn stress(&self, q: f64, layer: usize, depth: Metre) -> WaveStress {
+        let elastic = |n: usize| self.layers.get(n).map_or(self.base, |layer| layer.elastic);
+        let own = elastic(layer);
+        if q == 0.0 {
+            let side = -own.poisson / (1.0 - own.poisson);
+            return WaveStress {
+                pressure: [side, side, -1.0, 0.0],
+                along: [0.0, 0.0, 0.0, -1.0],
+                across: [-1.0, 0.0],
+            };
+        }
+        // Compliances under each interface, in the plane and out of it.
+        let mut below = vec![(self.base.half_space(), self.base.shear.recip())];
+        for layer in self.layers.iter().rev() {
+            let (plane, across) = below[below.len() - 1];
+            let next = (
+                layer.under(q, plane),
+                potential_compliance([(layer.thickness, layer.elastic.shear)], across.recip(), q) * q,
+            );
+            below.push(next);
+        }
+        below.reverse();
+        let mut top = 0.0;
+        let mut tractions = IDENTITY;
+        let mut displacements = below[0].0.map(|row| row.map(|value| -value));
+        let (mut sheared, mut sliding) = (1.0, below[0].1);
+        for n in 0..=layer {
+            let is_here = n == layer;
+            let Elastic { shear, poisson } = elastic(n);
+            if shear.is_infinite() {
+                return WaveStress { pressure: [0.0; 4], along: [0.0; 4], across: [0.0; 2] };
+            }
+            let thickness = self.layers.get(n).map(|layer| layer.thickness);
+            let to = if is_here {
+                (depth - top).clamp(0.0, thickness.unwrap_or(Metre::INFINITY))
+            } else {
+                thickness.expect("a layer")
+            };
+            let x = q * to;
+            let scaled = displacements.map(|row| row.map(|value| shear * value));
+            let (moved, loaded) = match thickness {
+                None => self::below(x, poisson, scaled, tractions),
+                Some(thickness) => {
+                    let rest = Layer { thickness: thickness - to, elastic: elastic(n) };
+                    let under = rest.under(q, below[n + 1].0).map(|row| row.map(|value| -shear * value));
+                    down(x, poisson, scaled, tractions, under)
+                }
+            };
+            displacements = moved.map(|row| row.map(|value| value / shear));
+            // u = F cosh w + sinh w and σ = cosh w + F sinh w over their values at the top, with w from the bottom up.
+            let relative = thickness.map_or(1.0, |_| shear * below[n + 1].1);
+            let whole = q * thickness.unwrap_or(to);
+            let [near, far] = [(-x).exp(), (x - 2.0 * whole).exp()];
+            let all = (-2.0 * whole).exp();
+            let fade = |sign: f64| (relative + 1.0) * near + sign * (relative - 1.0) * far;
+            let full = |sign: f64| (relative + 1.0) + sign * (relative - 1.0) * all;
+            if thickness.is_some() {
+                sliding *= fade(1.0) / full(1.0);
+                sheared *= fade(-1.0) / full(-1.0);
+            } else {
+                sliding *= near;
+                sheared *= near;
+            }
+            if is_here {
+                return self.stresses(own, moved, loaded, [sheared, sliding * shear]);
+            }
+            top += to;
+            tractions = product(inverse(below[n + 1].0), displacements).map(|row| row.map(|value| -value));
+        }
+        unreachable!("a layer of the stack")
+    }
+
+    /// Returns the stresses from G q times the displacements and the tractions under unit i σ_xz and σ_zz, and those under a
+    /// unit shear along the crests.
+    fn stresses(&self, own: Elastic, u: Plane, t: Plane, [sheared, sliding]: [f64; 2]) -> WaveStress {
+        let nu = own.poisson;
+        let of = |load: usize| {
+            let along = nu / (1.0 - nu) * t[1][load] + 2.0 / (1.0 - nu) * u[0][load];
+            [along, nu * (along + t[1][load]), t[1][load], t[0][load]].map(|stress| -stress)
+        };
+        let [mut pressure, along] = [of(1), of(0)];
+        pressure[3] = -pressure[3];
+        WaveStress { pressure, along, across: [-sheared, sliding] }
+    }
+}
+
+/// Returns displacements and tractions at the depth x in a layer of G = 1 from those at its surface, and from the compliances
+/// `under` that depth.
+fn down(x: f64, poisson: f64, u: Plane, t: Plane, under: Plane) -> (Plane, Plane) {
+    if x < THICK {
+        let [[uu, ut], [tu, tt]] = solution(x, poisson);
+        return (plus(product(uu, u), product(ut, t)), plus(product(tu, u), product(tt, t)));
+    }
+    let [_, across, bottom] = stiffness(x, poisson);
+    let forced = product([[-across[0][0], -across[1][0]], [-across[0][1], -across[1][1]]], u);
+    let moved = product(inverse(minus(IDENTITY, product(under, bottom))), product(under, forced));
+    (moved, plus(forced, product(bottom, moved)))
+}
+
+/// Returns displacements and tractions at the depth x in a half-space of G = 1: e^(−x)(1 + (A + 1) x) of those at its surface.
+fn below(x: f64, poisson: f64, u: Plane, t: Plane) -> (Plane, Plane) {
+    let [f, g, h] = [poisson, 0.5 * (1.0 - 2.0 * poisson), 2.0].map(|value| value / (1.0 - poisson));
+    let fade = (-x).exp();
+    let step = |value: f64, change: f64| fade * (value + x * change);
+    let columns = [0, 1].map(|k| {
+        let [a, b, c, d] = [u[0][k], u[1][k], t[0][k], t[1][k]];
+        [step(a, a + b + c), step(b, b - f * a + g * d), step(c, c + h * a + f * d), step(d, d - c)]
+    });
+    let rows = |n: usize| [columns[0][n], columns[1][n]];
+    ([rows(0), rows(1)], [rows(2), rows(3)])
 }
 
 /// Potential at the surface per unit flux of a wave of wavenumber q > 0 into layers on a half-space: displacement under an
@@ -241,6 +416,7 @@ fn inverse([[a, b], [c, d]]: Plane) -> Plane {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::harmonic_stress;
     use crate::material::Coating;
 
     const RIGID: f64 = f64::INFINITY;
@@ -433,5 +609,116 @@ mod tests {
         // A thin layer shears by t/G along the wave, too.
         let thin = stack(&[[1e-4, 3.0, 0.3]], [RIGID, 0.3]).response(1.0);
         assert!((thin.along * 3.0 / 2.6 / 1e-4 - 1.0).abs() < 1e-7);
+    }
+
+    #[test]
+    fn in_layers_alike_the_stress_is_that_of_the_half_space() {
+        let (young, poisson) = (7.0, 0.3);
+        for layers in [vec![], vec![[1.0, young, poisson]], vec![[0.05, young, poisson]; 20]] {
+            let stack = stack(&layers, [young, poisson]);
+            for q in [0.0, 1e-3, 0.7, 3.0, 40.0] {
+                for (depth, angle) in [(0.0, 0.3f64), (0.02, 1.2), (0.35, 2.0), (0.97, 4.0), (1.3, 5.5)] {
+                    let layer = stack.interfaces().iter().rposition(|top| *top <= depth + 1e-12).unwrap();
+                    let wave = stack.stress(q, layer, depth);
+                    let direction = [angle.cos(), angle.sin()];
+                    for (component, traction) in all_coefficients() {
+                        let found = wave.component(
+                            if q == 0.0 { [1.0, 0.0] } else { direction },
+                            component,
+                            traction,
+                        );
+                        let exact =
+                            harmonic_stress(direction.map(|d| q * d), depth, poisson, component, traction);
+                        assert!(
+                            (found - exact).abs() < 1e-13,
+                            "{component:?} under {traction:?}, {} layers, {q}, {depth}: {found:e} for {exact:e}",
+                            layers.len()
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    fn all_coefficients() -> impl Iterator<Item = (Component, Traction)> {
+        Component::ALL.into_iter().flat_map(|component| Traction::ALL.map(|traction| (component, traction)))
+    }
+
+    /// The stresses are in equilibrium, compatible, meet at the interfaces, and are the tractions on the surface.
+    #[test]
+    fn stresses_meet_at_interfaces_and_are_in_equilibrium_between_them() {
+        let layers = [[0.5, 4.0, 0.25], [1.0, 1.4, 0.5], [0.2, 19.0, 0.1], [6.0, 2.0, 0.4]];
+        for base in [[2.6, 0.3], [RIGID, 0.0]] {
+            let stack = stack(&layers, base);
+            let tops = stack.interfaces();
+            for q in [0.05, 0.4, 1.3, 9.0] {
+                let surface = stack.stress(q, 0, 0.0);
+                let at = |wave: WaveStress, which: usize| {
+                    [wave.pressure[which], wave.along[which], wave.across[which % 2]]
+                };
+                let expected = [at(surface, 2), at(surface, 3)];
+                for (found, exact) in [
+                    (expected[0][0], -1.0),
+                    (expected[0][1], 0.0),
+                    (expected[1][0], 0.0),
+                    (expected[1][1], -1.0),
+                    (surface.across[0], -1.0),
+                ] {
+                    assert!((found - exact).abs() < 1e-12, "surface: {found} for {exact}");
+                }
+                for (n, depth) in tops.iter().enumerate().skip(1).take(if base[0] == RIGID { 3 } else { 4 }) {
+                    let (above, below) = (stack.stress(q, n - 1, *depth), stack.stress(q, n, *depth));
+                    let size = 1e-11
+                        * above
+                            .pressure
+                            .iter()
+                            .chain(&above.along)
+                            .fold(1e-30f64, |most, s| most.max(s.abs()));
+                    for which in [2, 3] {
+                        assert!(
+                            (above.pressure[which] - below.pressure[which]).abs() < size,
+                            "{q}, {n}, {which}: {above:?} and {below:?}"
+                        );
+                        assert!(
+                            (above.along[which] - below.along[which]).abs() < size,
+                            "{q}, {n}, {which}: {above:?} and {below:?}"
+                        );
+                    }
+                    assert!(
+                        (above.across[0] - below.across[0]).abs() < 1e-12 * above.across[0].abs().max(1e-30),
+                        "{above:?} and {below:?}"
+                    );
+                }
+                // (i σ_xz)' = q σ_xx, σ_zz' = −q i σ_xz: central differences in the middle of each.
+                for (n, top) in tops.iter().enumerate().take(if base[0] == RIGID { 4 } else { 5 }) {
+                    let depth = top + 0.4 * layers.get(n).map_or(1.0, |layer| layer[0]);
+                    let step = 1e-3 / q.max(1.0);
+                    let [before, here, after] =
+                        [-1.0, 0.0, 1.0].map(|sign| stack.stress(q, n, depth + sign * step));
+                    let slope = |of: fn(&WaveStress) -> f64| (of(&after) - of(&before)) / (2.0 * step * q);
+                    let size =
+                        here.pressure.iter().chain(&here.along).fold(0.0f64, |most, s| most.max(s.abs()));
+                    let residuals = [
+                        // Under the pressure i σ_xz = −(imaginary part), under the shear the factor is −i.
+                        slope(|w| w.pressure[3]) + here.pressure[0],
+                        slope(|w| w.pressure[2]) - here.pressure[3],
+                        slope(|w| w.along[3]) - here.along[0],
+                        slope(|w| w.along[2]) + here.along[3],
+                        slope(|w| w.across[0]) - here.across[1],
+                    ];
+                    for residual in residuals {
+                        assert!(
+                            residual.abs() < 1e-5 * size.max(here.across[0].abs()),
+                            "{q}, {n}: {residuals:?} of {size}"
+                        );
+                    }
+                    // The strain along z is that of the displacements: the crests are in plane strain.
+                    let nu = layers.get(n).map_or(base[1], |layer| layer[2]);
+                    assert!(
+                        (here.pressure[1] - nu * (here.pressure[0] + here.pressure[2])).abs() < 1e-14 * size
+                    );
+                }
+            }
+        }
     }
 }

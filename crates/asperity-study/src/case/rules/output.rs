@@ -22,13 +22,4 @@ pub(super) const RULES: &[Rule] = &[
         example: &[COATED, LINE],
         broken: |tables| tables.line().filter(|_| tables.case.is_coated()),
     },
-    Rule {
-        this: "a coating, layers",
-        with: "[subsurface]",
-        message: "[subsurface] does not support layers yet",
-        hint: "leave [subsurface] or the layers out",
-        at: "subsurface",
-        example: &[COATED, r#"subsurface = { to = "20 um" }"#],
-        broken: |tables| tables.at("subsurface").filter(|_| tables.case.is_coated()),
-    },
 ];
