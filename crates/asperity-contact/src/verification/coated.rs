@@ -3,14 +3,14 @@
 use std::f64::consts::PI;
 
 use super::smooth::{RADIUS, sphere_gap};
-use super::{Case, Check, Expected, largest, press, relative, study};
+use super::{Case, Check, Expected, hold, largest, press, relative, study};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::kernel::{LayeredBody, Response};
 use crate::material::{Coating, Material};
-use crate::operator::{FreeFft, Operator, PeriodicFft};
+use crate::operator::{Boundary, FreeFft, Operator, Operators, PeriodicFft};
 use crate::reference::HertzSphere;
-use crate::solver::Control;
+use crate::solver::{Control, Coupling, Friction, Loading, Tangential};
 use crate::units::Pascal;
 
 const RIGID: Pascal = Pascal::INFINITY;
@@ -164,6 +164,36 @@ pub(super) const SERIES: Case = Case {
     },
 };
 
+/// A sphere that sticks to two layers thin compared with the contact, on a rigid body, and is pushed along them by s:
+/// foundations in series in shear, Q = πa² s/(t₁/G₁ + t₂/G₂), apart from an edge as wide as the layers are thick.
+pub(super) const SHEARED: Case = Case {
+    name: "Layered body: a sphere that sticks to two thin layers",
+    source: "Johnson (1985), section 5.8",
+    checks: || {
+        let layers = [[0.4, 1.0, 0.3], [0.6, 3.0, 0.2]];
+        let sum = |of: fn(f64, f64) -> f64| -> f64 {
+            layers.iter().map(|[share, young, poisson]| share * of(*young, *poisson)).sum()
+        };
+        let normal = sum(|young, nu| (1.0 + nu) * (1.0 - 2.0 * nu) / (young * (1.0 - nu)));
+        let shear = sum(|young, nu| 2.0 * (1.0 + nu) / young);
+        let checks = [("force", Expected::Order { order: 0.8..=1.3, finest: 0.1 })];
+        study("a/t", &[4, 8, 16], checks, |n| {
+            const SHIFT: f64 = 1e-3;
+            let thickness = 1.0 / n as f64;
+            let grid = Grid::new([10 * n; 2], [0.25 * thickness; 2])?;
+            let body = layered([RIGID, 0.0], &of_thickness(&layers, thickness))?;
+            let mut operator = Operators::new(grid, body, Boundary::FREE).coupled_on(grid.shape);
+            let loading = Loading {
+                normal: Control::Load(0.25 * PI / (RADIUS * thickness * normal)),
+                tangential: Tangential::Displacement([SHIFT, 0.0]),
+            };
+            let friction = Friction::coulomb(f64::INFINITY)?.with_coupling(Coupling::None);
+            let found = hold(operator.as_mut(), &sphere_gap(&grid)?, &friction, loading, None)?;
+            Ok([relative(found.force()[0], PI * SHIFT / (thickness * shear))])
+        })
+    },
+};
+
 /// An incompressible thin layer: it flows as between two planes, p = 3G(a² − r²)²/32Rt³.
 pub(super) const INCOMPRESSIBLE: Case = Case {
     name: "Coated half-space: thin incompressible layer on a rigid body",
@@ -181,6 +211,11 @@ pub(super) const INCOMPRESSIBLE: Case = Case {
     },
 };
 
+/// Returns layers of a total thickness, of which each has its share.
+fn of_thickness(layers: &[[f64; 3]], thickness: f64) -> Vec<[f64; 3]> {
+    layers.iter().map(|[share, young, poisson]| [share * thickness, *young, *poisson]).collect()
+}
+
 /// A sphere on layers with the total thickness t = a/n on a rigid body, each with its share of it. The load is that at
 /// which the contact radius is a = 1 for t → 0. `limit` returns load, peak pressure and approach in this limit.
 fn thin_layers(
@@ -192,9 +227,7 @@ fn thin_layers(
         let thickness = 1.0 / n as f64;
         let grid = Grid::new([10 * n; 2], [0.25 * thickness; 2])?;
         let [load, peak, approach] = limit(thickness);
-        let layers: Vec<_> =
-            layers.iter().map(|[share, young, poisson]| [share * thickness, *young, *poisson]).collect();
-        let mut operator = FreeFft::new(grid, layered([RIGID, 0.0], &layers)?);
+        let mut operator = FreeFft::new(grid, layered([RIGID, 0.0], &of_thickness(layers, thickness))?);
         let solution = press(&mut operator, &sphere_gap(&grid)?, Pascal::INFINITY, Control::Load(load))?;
         Ok([relative(solution.max_pressure(), peak), relative(solution.approach, approach)])
     })

@@ -142,6 +142,7 @@ pub const CASES: &[Case] = &[
     coated::THICK,
     coated::FOUNDATION,
     coated::SERIES,
+    coated::SHEARED,
     coated::INCOMPRESSIBLE,
     rough::PLASTIC_LIMIT,
     rough::WORK,

@@ -6,8 +6,8 @@ use asperity_contact::kernel::{SharedResponse, response};
 use asperity_contact::material::{Coating, Compliances, Material};
 use asperity_contact::operator::{Boundary, CoupledOperator, CoupledSum, Operators};
 use asperity_contact::solver::{
-    Bounds, Control, Coupling, Friction, FrictionalSolution, Loading, Params, Tangential, solve_frictional,
-    solve_normal,
+    Bounds, Control, Coupling, Creep, Friction, FrictionalSolution, Loading, Params, Rolling, Tangential,
+    solve_frictional, solve_normal, solve_rolling,
 };
 
 use crate::support::cell_by_cell::CellByCell;
@@ -102,7 +102,7 @@ fn forces_and_displacements_are_two_ways_to_say_the_same() {
 }
 
 #[test]
-fn layers_like_their_body_stick_and_slip_as_the_body() {
+fn layers_like_their_body_stick_slip_and_roll_as_the_body() {
     let grid = Grid::new([24, 20], [1.0, 1.0]).unwrap();
     let gap = gap(grid.shape).mapv(|h| 0.2 * h);
     let friction = Friction::coulomb(0.3).unwrap();
@@ -123,6 +123,16 @@ fn layers_like_their_body_stick_and_slip_as_the_body() {
             let error = largest(&(one - other));
             assert!(error < 1e-8 * most, "{boundary:?}: {error:e} of {most:e}");
         }
+        let rolled = |lower: &Material| {
+            let pair = response(lower, &stiff).unwrap();
+            let mut operator = Operators::new(grid, pair, boundary).coupled_on(grid.shape);
+            let rolling = Rolling { creep: Creep::Creepage([2e-3, 0.0]), spin: 0.0 };
+            let load = Control::Load(4.0);
+            solve_rolling(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, load, rolling, &PARAMS)
+                .unwrap()
+        };
+        let forces = [&soft, &layers].map(|lower| rolled(lower).contact.force());
+        assert!(forces[0][0].abs() > 0.01 && (forces[0][0] / forces[1][0] - 1.0).abs() < 1e-7, "{forces:?}");
     }
 }
 

@@ -18,26 +18,16 @@ pub(super) fn integral(
     closed: impl Fn(f64, f64) -> f64,
     k: impl Fn(f64, f64) -> f64,
 ) -> f64 {
-    integral_below(at, 0.0, half, closed, k)
-}
-
-/// [`integral`] of a function that is smooth on the scale of the distance from a point at this `depth`.
-pub(super) fn integral_below(
-    [x, y]: [f64; 2],
-    depth: f64,
-    half: [f64; 2],
-    closed: impl Fn(f64, f64) -> f64,
-    k: impl Fn(f64, f64) -> f64,
-) -> f64 {
-    let [a, b] = half;
-    if x.hypot(y).hypot(depth) > FAR * a.max(b) {
-        by_quadrature([x, y], half, k)
+    if at[0].hypot(at[1]) > FAR * half[0].max(half[1]) {
+        by_quadrature(at, half, k)
     } else {
-        by_corners([x, y], half, closed)
+        by_corners(at, half, closed)
     }
 }
 
-/// [`integral_below`] of several functions.
+/// [`integral`] of several functions that are smooth on the scale of the distance from a point at this `depth`.
+///
+/// Beyond 200 half-sides 2 × 2 Gauss points have an error of (a/r)⁴/10, below 1e-10 of k, and 1e-12 of k near the cell.
 pub(super) fn integrals_below<const N: usize>(
     [x, y]: [f64; 2],
     depth: f64,
@@ -45,18 +35,22 @@ pub(super) fn integrals_below<const N: usize>(
     closed: impl Fn(f64, f64) -> [f64; N],
     k: impl Fn(f64, f64) -> [f64; N],
 ) -> [f64; N] {
+    /// Beyond this number of half-sides two points along each are enough.
+    const FARTHER: f64 = 200.0;
     let mut sums = [0.0; N];
     let mut add = |weight: f64, values: [f64; N]| {
         sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
     };
-    if x.hypot(y).hypot(depth) > FAR * a.max(b) {
+    let distance = x.hypot(y).hypot(depth) / a.max(b);
+    let corners = |a: f64, b: f64| [[x + a, y + b], [x - a, y + b], [x + a, y - b], [x - a, y - b]];
+    if distance > FARTHER {
+        let node = 3f64.sqrt().recip();
+        corners(node * a, node * b).into_iter().for_each(|[x, y]| add(a * b, k(x, y)));
+    } else if distance > FAR {
         gauss_points([x, y], [a, b]).for_each(|([x, y], weight)| add(weight * a * b, k(x, y)));
     } else {
-        for (sign, x, y) in
-            [(1.0, x + a, y + b), (-1.0, x - a, y + b), (-1.0, x + a, y - b), (1.0, x - a, y - b)]
-        {
-            add(sign, closed(x, y));
-        }
+        let signs = [1.0, -1.0, -1.0, 1.0];
+        corners(a, b).into_iter().zip(signs).for_each(|([x, y], sign)| add(sign, closed(x, y)));
     }
     sums
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::kernel::cell::integral_below;
+use crate::kernel::cell::integrals_below;
 use crate::kernel::{Influence, normal_displacement};
 use crate::math::{gauss_legendre, parallel};
 use crate::units::Metre;
@@ -57,14 +57,14 @@ impl Influence for Layered {
         let Self { layering: Layering { short, long, depth }, pitch, remainder } = self;
         let (half, image) = (pitch.map(|p| 0.5 * p), (long - short) / PI);
         let below = |x: f64, y: f64| image / (x * x + y * y + depth * depth).sqrt();
-        short * normal_displacement(x, y, *pitch, 1.0)
-            + integral_below(
-                [x, y],
-                *depth,
-                half,
-                |x, y| image * potential_below(x, y, *depth) + remainder.of_rectangle(x, y),
-                |x, y| below(x, y) + remainder.at(x.hypot(y))[0],
-            )
+        let [rest] = integrals_below(
+            [x, y],
+            *depth,
+            half,
+            |x, y| [image * potential_below(x, y, *depth) + remainder.of_rectangle(x, y)],
+            |x, y| [below(x, y) + remainder.at(x.hypot(y))[0]],
+        );
+        short * normal_displacement(x, y, *pitch, 1.0) + rest
     }
 }
 
@@ -281,13 +281,14 @@ mod tests {
             for cells in [[0.0, 0.0], [1.0, 0.0], [0.0, 7.0], [14.0, 15.0], [300.0, 20.0], [0.0, 1e7]] {
                 let [x, y] = [0, 1].map(|axis| cells[axis] * pitch[axis]);
                 let seen_at = |z: f64| {
-                    integral_below(
+                    let [seen] = integrals_below(
                         [x, y],
                         z,
                         pitch.map(|p| 0.5 * p),
-                        |x, y| potential_below(x, y, z),
-                        |x, y| 1.0 / x.hypot(y).hypot(z),
-                    )
+                        |x, y| [potential_below(x, y, z)],
+                        |x, y| [1.0 / x.hypot(y).hypot(z)],
+                    );
+                    seen
                 };
                 let exact = short * normal_displacement(x, y, pitch, 1.0)
                     + half / PI * (seen_at(depth) + seen_at(1.5 * depth));
