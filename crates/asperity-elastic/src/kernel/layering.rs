@@ -222,8 +222,11 @@ fn hankel<const N: usize>(
     let mut sums = [0.0; N];
     let mut add = |q: f64, width: f64| {
         let values = rest(q);
+        let mut weights = [0.0; N];
         for n in 0..N {
-            sums[n] += width * values[n] * transforms[n].weight(q, q * r);
+            let known = transforms[..n].iter().position(|other| *other == transforms[n]);
+            weights[n] = known.map_or_else(|| transforms[n].weight(q, q * r), |known| weights[known]);
+            sums[n] += width * values[n] * weights[n];
         }
     };
     add(0.5 * start, start);

@@ -5,10 +5,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use crate::grid::Field;
-use crate::kernel::coupled::coupled_displacement;
-use crate::kernel::spectral::harmonic_displacements;
 use crate::kernel::{Coefficients, Line};
-use crate::material::Compliances;
 use crate::math::parallel;
 use crate::units::{Metre, Pascal};
 
@@ -71,27 +68,6 @@ pub trait CoupledResponse: Send + Sync {
 
 /// Displacements at `(x, y)` per unit traction on a cell centred at the origin, m/Pa.
 pub type CoupledInfluence = dyn Fn(Metre, Metre) -> Coefficients + Send + Sync;
-
-/// Half-spaces with these compliances.
-impl CoupledResponse for Compliances {
-    fn couples(&self) -> bool {
-        self.coupling != 0.0
-    }
-
-    fn harmonic_displacements(&self, qx: f64, qy: f64) -> Coefficients {
-        harmonic_displacements(qx, qy, self)
-    }
-
-    fn coupled_influence(&self, pitch: [Metre; 2]) -> Box<CoupledInfluence> {
-        let compliances = *self;
-        Box::new(move |x, y| coupled_displacement(x, y, pitch, &compliances))
-    }
-
-    fn coupled_line_influence(&self, line: &Line, pitch: [Metre; 2]) -> Option<Box<CoupledInfluence>> {
-        let (line, compliances) = (*line, *self);
-        Some(Box::new(move |x, y| line.coupled_displacement(x, y, pitch, &compliances)))
-    }
-}
 
 /// Normal displacement around a loaded cell centred at the origin.
 pub trait Influence: Send + Sync {

@@ -1,6 +1,6 @@
 //! Stress in layers under a uniformly loaded cell.
 
-use crate::kernel::cell::gauss_points;
+use crate::kernel::cell::{far_points, gauss_points};
 use crate::kernel::layering::{Remainder, Transform};
 use crate::kernel::{Stack, Traction, WaveStress, cell_stress};
 use crate::stress::{Component, Stress};
@@ -62,17 +62,24 @@ impl LayerCells {
     pub fn at(&self, [x, y]: [Metre; 2]) -> [Stress; 3] {
         /// Size of a part over the distance to the singularities: the error is below 1e-7 of the traction.
         const PART: f64 = 0.5;
+        /// Beyond this number of half-sides four points are as good.
+        const FAR: f64 = 40.0;
         let cell = 0.5 * self.pitch[0].hypot(self.pitch[1]);
         let distance = self.scale.hypot((x.hypot(y) - cell).max(0.0));
         let parts = self.pitch.map(|pitch| (pitch / (PART * distance)).ceil().max(1.0) as usize);
         let half = [0, 1].map(|axis| 0.5 * self.pitch[axis] / parts[axis] as f64);
         let mut sums = [Stress::default(); 3];
+        let mut add = |point: [Metre; 2], weight: f64| {
+            let stresses = self.under_point(point);
+            sums = std::array::from_fn(|n| sums[n] + (weight * half[0] * half[1]) * stresses[n]);
+        };
         for part in 0..parts[0] * parts[1] {
             let offset = |axis: usize, k: usize| (2 * k + 1) as f64 * half[axis] - 0.5 * self.pitch[axis];
             let centre = [x + offset(0, part / parts[1]), y + offset(1, part % parts[1])];
-            for (point, weight) in gauss_points(centre, half) {
-                let stresses = self.under_point(point);
-                sums = std::array::from_fn(|n| sums[n] + (weight * half[0] * half[1]) * stresses[n]);
+            if distance > FAR * half[0].max(half[1]) {
+                far_points(centre, half).into_iter().for_each(|point| add(point, 1.0));
+            } else {
+                gauss_points(centre, half).for_each(|(point, weight)| add(point, weight));
             }
         }
         let Some(poisson) = self.surface else { return sums };
