@@ -255,7 +255,7 @@ def stress(
 
 
 def _of_contact(contact: Contact, body: str) -> Any:
-    if "coating" in contact.case[body]:
+    if {"coating", "layers"} & set(contact.case[body]):
         raise bad_input("coating", "stress under a coating is not supported yet")
     found = contact.fields
     shear = [found[name].values if name in found else None for name in ("traction_x", "traction_y")]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 import numpy as np
@@ -127,8 +128,8 @@ class Material(Comparable):
     hardness : float, str or array_like, optional
         Largest pressure of a cell, above 0, Pa: one number, or a matrix with a number for each cell of the prepared body. A body
         without hardness is elastic. A named material may have its own; ``inf`` makes it elastic.
-    coating : Coating, optional
-        Elastic layer on the body.
+    coating : Coating or list of Coating, optional
+        Elastic layer on the body, or several from the surface down.
     plasticity : Plasticity, optional
         Plasticity below the surface, in place of a hardness. It needs the argument `plasticity` of :func:`contact` or
         :func:`simulate`.
@@ -160,7 +161,7 @@ class Material(Comparable):
         young: Quantity,
         poisson: float | None = None,
         hardness: Quantity | ArrayLike | None = None,
-        coating: Coating | None = None,
+        coating: Coating | Sequence[Coating] | None = None,
         plasticity: Plasticity | None = None,
     ) -> None:
         named = _named(young)
@@ -218,15 +219,18 @@ class Material(Comparable):
             table.setdefault("hardness", math.inf)
             if self.plasticity is not None:
                 del table["hardness"]
-        if self.coating is not None:
+        if isinstance(self.coating, Coating):
             table["coating"] = self.coating._table()
+        elif self.coating is not None:
+            table["layers"] = [layer._table() for layer in self.coating]
         if self.plasticity is not None:
             table["plasticity"] = self.plasticity._table()
         return table
 
     def _constants(self) -> tuple[float, float, list[float] | None]:
-        coating = self.coating
-        layer = None if coating is None else [coating.thickness, coating.young, coating.poisson]
+        # The compliances are those below the layers, of which it only counts whether there are any.
+        layers = [self.coating] if isinstance(self.coating, Coating) else self.coating
+        layer = [layers[0].thickness, layers[0].young, layers[0].poisson] if layers else None
         return self.young, self.poisson, layer
 
 

@@ -80,7 +80,7 @@ fn body(body: &MountedSurface) -> String {
 
 fn pair(case: &Case, estimate: &Estimate) -> String {
     let pressure = |value| units::format(value, Dimension::Pressure);
-    let coated = if case.is_coated() { " without the coating" } else { "" };
+    let coated = if case.is_coated() { " without the layers" } else { "" };
     let modulus = format!("E* {}{coated}", pressure(estimate.modulus));
     if let Some(volume) = case.plasticity {
         let of_body = |(name, body): (&str, &Body)| {

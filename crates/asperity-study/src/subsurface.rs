@@ -5,6 +5,7 @@
 //! /von_mises_01          float64 [x, y]   von Mises' stress on the first of the planes
 //! /section_xx … _xy      float64 [x, z]   the stress on the section, and `section_von_mises`
 //! /column_01_xx … _xy    float64 [z]      the stress under the first of the columns
+//! /                      of a body with layers: layer_depth, layer_max_von_mises, …, a number for each layer
 //! /section_residual_xx … /column_01_residual_xx …    its residual part, for an elasto-plastic body
 //! ```
 
@@ -20,12 +21,15 @@ use asperity_base::error::{Error, Result};
 use asperity_base::grid::{Field, Grid, Placement};
 use asperity_base::record::columns;
 use asperity_base::units::{self, Dimension, Metre, Pascal};
+use asperity_contact::kernel::Stack;
 use asperity_contact::material::Material;
 use asperity_contact::motion::Position;
 use asperity_contact::operator::Boundary;
 use asperity_contact::plasticity::{Layers, PlasticState, residual_below};
 use asperity_contact::stress::{Component, Stress};
-use asperity_contact::subsurface::{Extreme, LayeredStress, Plane, Subsurface, Tractions, von_mises};
+use asperity_contact::subsurface::{
+    Extreme, LayerStress, LayeredStress, Plane, Subsurface, Tractions, von_mises,
+};
 
 /// Requested points on the grid of one contact.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +79,15 @@ columns! {
         pub max_shear: Pascal,
         /// Place of the largest shear stress, in the same coordinates.
         pub max_shear_position: [Metre; 3],
+        /// Largest principal tension at the surface of a body with layers, which cracks them.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub max_surface_tension: Option<Pascal>,
+        /// Largest shear across an interface of its layers, which makes them come off.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub max_interface_shear: Option<Pascal>,
+        /// Largest tension across an interface of its layers.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub max_interface_tension: Option<Pascal>,
     }
 }
 
@@ -129,7 +142,7 @@ impl Plan {
                 (Some(_), Some(spec)) => Some(spec.layers()?),
                 _ => None,
             },
-            material: body.material,
+            material: body.material.clone(),
             of_body: match spec.body {
                 Side::Lower => *lower,
                 Side::Upper => *upper,
@@ -148,9 +161,15 @@ impl Plan {
         let cells = self.grid.cells() as f64;
         let padded = self.boundary.padded(self.grid.shape).map(|n| n as f64);
         let padded = padded[0] * padded[1];
+        // In layers the six components under three tractions, or ten of each wave ≥ 0.
+        let layers = match (self.material.is_layered(), self.boundary.leaves_mean_free()) {
+            (false, _) => 0.0,
+            (true, false) => 18.0 * cells,
+            (true, true) => 2.5 * padded,
+        };
         // Six components, von Mises' stress, two tables; influence, its transform, their sum, and one in
         // progress.
-        8.0 * (9.0 * cells + 4.0 * padded)
+        8.0 * (9.0 * cells + 4.0 * padded + layers)
     }
 
     /// The requested body: 0 the lower, 1 the upper one.
@@ -185,9 +204,14 @@ impl Plan {
             Side::Upper => tractions.on_upper(),
         };
         let residual = self.residual(plastic_state)?;
-        let body =
+        let mut body =
             Subsurface::new(self.grid, self.boundary, self.poisson, &tractions).with_residual(residual);
+        if self.material.is_layered() {
+            body = body.with_layers(Stack::new(&self.material));
+        }
         let most = body.maximum(&self.depths);
+        let layers = body.layers(&self.depths);
+        let largest = |of: fn(&LayerStress) -> Pascal| layers.iter().skip(1).map(of).reduce(f64::max);
         let record = SubsurfaceRecord {
             pass,
             step: pass.map(|_| self.index + 1),
@@ -195,9 +219,13 @@ impl Plan {
             position: self.position(&most.von_mises),
             max_shear: most.shear.value,
             max_shear_position: self.position(&most.shear),
+            max_surface_tension: layers.first().map(|layer| layer.tension.max(0.0)),
+            max_interface_shear: largest(|layer| layer.shear),
+            max_interface_tension: largest(|layer| layer.pull.max(0.0)),
         };
         let row = self.section.unwrap_or(most.von_mises.cell[1]);
         self.describe(&mut file, &record, row);
+        describe_layers(&mut file, &layers);
         for (k, plane) in body.planes(&self.planes, |plane| plane.von_mises()).iter().enumerate() {
             file.add_field(&format!("von_mises_{:02}", k + 1), "Pa", &self.grid, self.corner, plane);
         }
@@ -207,9 +235,9 @@ impl Plan {
             let volume = self.volume.then(|| plane.von_mises().mapv(|stress| stress as f32));
             (section, columns, volume)
         };
-        let layers = body.planes(&self.depths, look);
+        let planes = body.planes(&self.depths, look);
         if self.volume {
-            let planes: Vec<_> = layers.iter().filter_map(|(_, _, plane)| plane.clone()).collect();
+            let planes: Vec<_> = planes.iter().filter_map(|(_, _, plane)| plane.clone()).collect();
             let [dx, dy] = self.grid.pitch;
             let origin = [0, 1].map(|axis| self.corner[axis] + self.grid.centre(axis, 0));
             let pitch = [dx, dy, self.spacing()];
@@ -217,7 +245,7 @@ impl Plan {
         }
         let section = |component: Component| {
             let mut field = Field::zeros([self.grid.shape[0], self.depths.len()]);
-            for (mut column, (section, ..)) in field.axis_iter_mut(Axis(1)).zip(&layers) {
+            for (mut column, (section, ..)) in field.axis_iter_mut(Axis(1)).zip(&planes) {
                 column.assign(&section[component as usize]);
             }
             field
@@ -225,7 +253,7 @@ impl Plan {
         self.add_section(&mut file, &Component::ALL.map(section));
         for k in 0..self.columns.len() {
             for component in Component::ALL {
-                let values: Vec<f64> = layers
+                let values: Vec<f64> = planes
                     .iter()
                     .map(|(_, columns, _)| columns[k].components()[component as usize])
                     .collect();
@@ -278,6 +306,15 @@ impl Plan {
             .set("position", record.position.to_vec())
             .set("max_shear", record.max_shear)
             .set("max_shear_position", record.max_shear_position.to_vec());
+        for (name, value) in [
+            ("max_surface_tension", record.max_surface_tension),
+            ("max_interface_shear", record.max_interface_shear),
+            ("max_interface_tension", record.max_interface_tension),
+        ] {
+            if let Some(value) = value {
+                file.set(name, value);
+            }
+        }
         if let (Some(pass), Some(step)) = (record.pass, record.step) {
             file.set("pass", pass).set("step", step);
         }
@@ -333,11 +370,33 @@ impl SubsurfaceRecord {
                 position: position("position")?,
                 max_shear: number("max_shear")?,
                 max_shear_position: position("max_shear_position")?,
+                max_surface_tension: number("max_surface_tension"),
+                max_interface_shear: number("max_interface_shear"),
+                max_interface_tension: number("max_interface_tension"),
             })
         };
         let missing = || std::io::Error::new(std::io::ErrorKind::InvalidData, "no stress in it");
         record().ok_or_else(|| Error::File { path: path.to_owned(), source: missing() })
     }
+}
+
+/// Describes the stress in each layer, from the surface down, and at their upper faces. The tension at the lower faces has no
+/// entry for the body below the layers.
+fn describe_layers(file: &mut FieldFile, layers: &[LayerStress]) {
+    if layers.is_empty() {
+        return;
+    }
+    let each = |of: fn(&LayerStress) -> f64| layers.iter().map(of).collect::<Vec<_>>();
+    file.set("layer_depth", each(|layer| layer.depth))
+        .set("layer_max_von_mises", each(|layer| layer.von_mises.value))
+        .set("layer_max_von_mises_depth", each(|layer| layer.von_mises.depth))
+        .set("layer_max_tension_above", each(|layer| layer.tension))
+        .set(
+            "layer_max_tension_below",
+            layers.iter().filter_map(|layer| layer.tension_below).collect::<Vec<_>>(),
+        )
+        .set("layer_max_shear_above", each(|layer| layer.shear))
+        .set("layer_max_pull_above", each(|layer| layer.pull));
 }
 
 /// Returns the corner of the contact at a position on one of the bodies, in cells of the `lower` one.

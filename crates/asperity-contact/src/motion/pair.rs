@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid, Placement, check_finite, flat_mut};
-use crate::kernel::{SharedResponse, response};
+use crate::kernel::{CoupledResponse, SharedResponse, response};
 use crate::lubrication::Lubrication;
 use crate::material::{Compliances, Material, plastic_share};
 use crate::math::{Bands, parallel};
@@ -41,7 +41,7 @@ impl Pair {
     ///
     /// # Errors
     /// [`Error::GridMismatch`] if pitches or transverse widths differ, [`Error::UndefinedSamples`] if heights
-    /// are missing, [`Error::OutOfRange`] if both materials are rigid and neither is coated.
+    /// are missing, [`Error::OutOfRange`] if both materials are rigid and neither has layers.
     pub fn new(lower: Topography, upper: Topography, materials: [&Material; 2]) -> Result<Self> {
         let (a, b) = (*lower.grid(), *upper.grid());
         if (0..2).any(|axis| (a.pitch[axis] - b.pitch[axis]).abs() > 1e-9 * a.pitch[axis]) {
@@ -83,17 +83,17 @@ impl Pair {
     /// relaxed modulus.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a coated body.
+    /// [`Error::Unsupported`] for a body with layers.
     pub fn with_relaxation(
         mut self,
         materials: [&Material; 2],
         relaxations: [Option<Relaxation>; 2],
     ) -> Result<Self> {
-        if materials.iter().any(|material| material.coating.is_some()) {
-            return Err(Error::Unsupported("a coated body cannot be viscoelastic"));
+        if materials.iter().any(|material| material.is_layered()) {
+            return Err(Error::Unsupported("a body with layers cannot be viscoelastic"));
         }
         let creep = |body: usize| {
-            let Material { young, poisson, .. } = *materials[body];
+            let &Material { young, poisson, .. } = materials[body];
             let creep = relaxations[body].as_ref().map_or(Creep::elastic(1.0 / young), Relaxation::creep);
             creep.times(1.0 - poisson * poisson)
         };
@@ -178,12 +178,12 @@ impl Pair {
         self.pitch
     }
 
-    /// Composite modulus E* of the bodies, without their coatings.
+    /// Composite modulus E* of the bodies, without their layers.
     pub fn modulus(&self) -> Pascal {
         self.compliances.modulus()
     }
 
-    /// Elastic compliances of the pair, without the coatings.
+    /// Elastic compliances of the pair, without the layers.
     pub fn compliances(&self) -> &Compliances {
         &self.compliances
     }
@@ -196,7 +196,7 @@ impl Pair {
     /// Whether pressure displaces the bodies tangentially, and shear displaces them normally; false if the
     /// response to shear is unknown.
     pub(super) fn couples(&self) -> bool {
-        self.response.compliances().is_some_and(Compliances::couples)
+        self.response.coupled().is_some_and(CoupledResponse::couples)
     }
 
     /// Returns [`Error::Unsupported`] if contacts with stick are not solved between these bodies.
@@ -208,7 +208,7 @@ impl Pair {
     /// Returns [`Error::Unsupported`] if the response to shear is unknown.
     pub(super) fn check_shear(&self) -> Result<()> {
         self.response
-            .compliances()
+            .coupled()
             .map(|_| ())
             .ok_or(Error::Unsupported("these bodies support friction only in gross sliding without coupling"))
     }

@@ -49,7 +49,7 @@ impl Plane {
 }
 
 impl Subsurface {
-    /// Returns the largest stresses on planes at the `depths`, ascending, and on a few more planes near the
+    /// Returns the largest stresses on planes at the `depths`, ascending, at both sides of interfaces between layers, and on a few more planes near the
     /// most stressed point. Each of these is at the vertex of a parabola in depth through the known von Mises
     /// stresses. The depth is accurate to about a hundredth of the distance between the planes. Each value is
     /// that of a cell at a depth, never interpolated.
@@ -59,7 +59,8 @@ impl Subsurface {
     pub fn maximum(&self, depths: &[Metre]) -> Maximum {
         /// Number of refinements, each with a smaller depth interval around the largest stress so far.
         const REFINEMENTS: usize = 4;
-        let all = self.planes(depths, |plane| plane.maximum());
+        let mut all = self.planes(depths, |plane| plane.maximum());
+        all.extend(self.faces(depths[depths.len() - 1]).iter().map(Plane::maximum));
         let mut most = all.into_iter().reduce(Maximum::or).expect("there are depths");
         let middle = depths.iter().position(|depth| *depth == most.von_mises.depth);
         // Three planes with the most stressed one in the middle; `None` at the ends of the depths.

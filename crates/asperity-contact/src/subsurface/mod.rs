@@ -24,19 +24,21 @@
 //! ```
 
 mod layered;
+mod layers;
 mod maximum;
 mod response;
 
 pub use layered::LayeredStress;
+pub use layers::LayerStress;
 pub use maximum::{Extreme, Maximum};
 pub use response::StressAtDepth;
 
 use asperity_transforms::num_complex::Complex64;
-use ndarray::{Array1, Axis, s};
+use ndarray::{Array1, Array2, Axis, s};
 
 use crate::grid::{Field, Grid};
 use crate::kernel::subsurface::{stress_lines, strip_stress};
-use crate::kernel::{Traction, harmonic_stress, stress_table};
+use crate::kernel::{LayerCells, Stack, Traction, WaveStress, harmonic_stress, stress_table};
 use crate::math::{RealFft2, fft::angular_frequency, parallel};
 use crate::operator::Boundary;
 use crate::stress::{Component, Stress};
@@ -84,6 +86,7 @@ impl Tractions {
 /// - [`Boundary::PERIODIC`]: the harmonics of the values at the cells, each with the closed form of
 ///   [`crate::kernel::harmonic_stress`]. Under the mean pressure the body cannot expand laterally: σzz = −p̄,
 ///   σxx = σyy = −ν p̄/(1 − ν), at all depths.
+/// - A body with [layers](Subsurface::with_layers) has the cells of [`LayerCells`] or the harmonics of [`Stack::stress`].
 /// - Periodic along one axis, free along the other: each cell repeats endlessly along that axis. The cells of 17 periods are
 ///   summed, those beyond as the rest of an endless strip in plane strain. The part that is uniform along the axis is exact
 ///   to 1e-10 of the traction, the other part to 2e-4 of it.
@@ -96,6 +99,8 @@ pub struct Subsurface {
     tractions: Vec<(Traction, Spectrum)>,
     /// Stress without tractions, if any.
     residual: Option<LayeredStress>,
+    /// The layers, if any.
+    stack: Option<Stack>,
 }
 
 type Spectrum = ndarray::Array2<Complex64>;
@@ -112,12 +117,21 @@ impl Subsurface {
             (traction, fft.forward(field))
         };
         let tractions = tractions.present().map(transform).collect();
-        Self { grid, poisson, boundary, fft, tractions, residual: None }
+        Self { grid, poisson, boundary, fft, tractions, residual: None, stack: None }
     }
 
     /// Sets or removes a residual stress, which exists without tractions.
     pub fn with_residual(self, residual: impl Into<Option<LayeredStress>>) -> Self {
         Self { residual: residual.into(), ..self }
+    }
+
+    /// Gives the body layers.
+    ///
+    /// # Panics
+    /// If the boundary is periodic along one axis only.
+    pub fn with_layers(self, stack: Stack) -> Self {
+        assert!(self.boundary.single_period().is_none(), "no line of cells on layers");
+        Self { stack: Some(stack), ..self }
     }
 
     /// Residual stress, if any.
@@ -130,9 +144,17 @@ impl Subsurface {
         &self.grid
     }
 
-    /// Returns the stress at `depth` ≥ 0; at 0 its limit from inside the body.
+    /// Returns the stress at `depth` ≥ 0; at 0 its limit from inside the body, at an interface that from below.
     pub fn plane(&self, depth: Metre) -> Plane {
-        let mut stress = Component::ALL.map(|component| self.component(component, depth));
+        let layer = self.stack.as_ref().map(Stack::interfaces);
+        let layer = layer.and_then(|tops| tops.iter().rposition(|top| *top <= depth));
+        self.plane_in(layer.unwrap_or(0), depth)
+    }
+
+    /// Returns the stress at a `depth` in a layer or at its faces; the body below all layers is the last one.
+    pub fn plane_in(&self, layer: usize, depth: Metre) -> Plane {
+        let inside = self.stack.as_ref().map(|stack| self.inside(stack, layer, depth));
+        let mut stress = Component::ALL.map(|component| self.component(component, depth, inside.as_ref()));
         if let Some(residual) = &self.residual {
             stress
                 .iter_mut()
@@ -148,13 +170,35 @@ impl Subsurface {
         parallel::tasks(depths, |&depth| look(self.plane(depth)))
     }
 
-    fn component(&self, component: Component, depth: Metre) -> Field {
+    fn inside(&self, stack: &Stack, layer: usize, depth: Metre) -> Inside {
+        if !self.boundary.leaves_mean_free() {
+            let Grid { shape, pitch } = self.grid;
+            let [x, y] = self.grid.extent();
+            let cells = LayerCells::new(stack, layer, depth, pitch, x.hypot(y));
+            let rows = parallel::tasks(0..shape[0], |i| {
+                let at = |j: usize| cells.at([i as f64 * pitch[0], j as f64 * pitch[1]]);
+                (0..shape[1]).map(at).collect::<Vec<_>>()
+            });
+            return Inside::Cells(Array2::from_shape_fn(shape, |(i, j)| rows[i][j]));
+        }
+        let [nx, ny] = self.fft.shape();
+        Inside::Waves(Array2::from_shape_fn([nx / 2 + 1, ny / 2 + 1], |(k, l)| {
+            let q = angular_frequency(k, nx, self.grid.pitch[0]).hypot(angular_frequency(
+                l,
+                ny,
+                self.grid.pitch[1],
+            ));
+            stack.stress(q, layer, depth)
+        }))
+    }
+
+    fn component(&self, component: Component, depth: Metre, inside: Option<&Inside>) -> Field {
         let mut sum = Spectrum::zeros([self.fft.shape()[0], self.fft.half()]);
         let (imaginary, real): (Vec<_>, Vec<_>) =
             self.tractions.iter().partition(|(traction, _)| is_imaginary(*traction, component));
         for k in 0..real.len().max(imaginary.len()) {
             let pair = [real.get(k), imaginary.get(k)].map(|term| term.map(|(traction, _)| *traction));
-            let symbol = self.symbol(component, pair, depth);
+            let symbol = self.symbol(component, pair, depth, inside);
             if let Some((_, traction)) = real.get(k) {
                 ndarray::Zip::from(&mut sum).and(&symbol).and(traction).for_each(|s, g, q| *s += q * g.re);
             }
@@ -171,7 +215,13 @@ impl Subsurface {
     /// Returns the transform of the influence of two tractions, one with a real transform in the real part,
     /// one with an imaginary transform in the imaginary part. The influence of the first is even in both
     /// directions or odd in both, that of the second odd in one.
-    fn symbol(&self, component: Component, pair: [Option<Traction>; 2], depth: Metre) -> Spectrum {
+    fn symbol(
+        &self,
+        component: Component,
+        pair: [Option<Traction>; 2],
+        depth: Metre,
+        inside: Option<&Inside>,
+    ) -> Spectrum {
         let shape @ [nx, ny] = self.fft.shape();
         if !self.boundary.leaves_mean_free() {
             let mut influence = Field::zeros(shape);
@@ -183,7 +233,12 @@ impl Subsurface {
                         line.add(&mut influence, depth, self.poisson, component, traction);
                     }
                     None => {
-                        let table = stress_table(offsets, depth, pitch, self.poisson, component, traction);
+                        let table = match inside {
+                            Some(Inside::Cells(cells)) => cells.mapv(|stresses| {
+                                stresses[traction as usize].components()[component as usize]
+                            }),
+                            _ => stress_table(offsets, depth, pitch, self.poisson, component, traction),
+                        };
                         add_folded(&mut influence, &table, traction.odd(component));
                     }
                 }
@@ -197,14 +252,27 @@ impl Subsurface {
             // cancels.
             let alternates = [2 * k == nx, 2 * l == ny];
             let part = |traction: Option<Traction>| match traction {
-                Some(traction) if !cancels(alternates, traction.odd(component)) => {
-                    harmonic_stress(q, depth, self.poisson, component, traction)
-                }
+                Some(traction) if !cancels(alternates, traction.odd(component)) => match inside {
+                    Some(Inside::Waves(waves)) => {
+                        let length = q[0].hypot(q[1]);
+                        let direction = if length == 0.0 { [1.0, 0.0] } else { q.map(|q| q / length) };
+                        waves[[k.min(nx - k), l]].component(direction, component, traction)
+                    }
+                    _ => harmonic_stress(q, depth, self.poisson, component, traction),
+                },
                 _ => 0.0,
             };
             Complex64::new(part(pair[0]), part(pair[1]))
         })
     }
+}
+
+/// The stress in layers at a depth.
+enum Inside {
+    /// Of each wave of the grid, for wavenumbers ≥ 0.
+    Waves(Array2<WaveStress>),
+    /// At the offsets ≥ 0 from a cell, per unit of each traction.
+    Cells(Array2<[Stress; 3]>),
 }
 
 /// Periods of a line of cells that are summed one by one, odd.
@@ -310,6 +378,12 @@ impl Plane {
         Stress::from_components(self.stress.each_ref().map(|component| component[cell]))
     }
 
+    /// Returns the largest of a number of the stress over all cells.
+    fn largest(&self, of: impl Fn(&Stress) -> f64) -> f64 {
+        let cells = self.stress[0].indexed_iter().map(|((i, j), _)| of(&self.stress([i, j])));
+        cells.fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Computes von Mises' stress of each cell, Pa.
     pub fn von_mises(&self) -> Field {
         von_mises(&self.stress)
@@ -326,6 +400,7 @@ pub fn von_mises(stress: &[Field; 6]) -> Field {
 mod tests {
     use super::*;
     use crate::kernel::cell_stress;
+    use crate::material::{Coating, Material};
     use crate::operator::Edge;
     use approx::assert_relative_eq;
 
@@ -569,5 +644,67 @@ mod tests {
             }
         }
         assert!(most < 2e-4, "{most:e}");
+    }
+
+    /// Waves of pressure and shear, with a mean.
+    fn waves_of_tractions(grid: &Grid) -> Tractions {
+        let field = |seed: usize| {
+            Field::from_shape_fn(grid.shape, |(i, j)| {
+                (0.7 * (i * (seed + 1)) as f64 + 0.3 * (j * j) as f64).sin() + 0.2 * seed as f64
+            })
+        };
+        Tractions { pressure: field(3), shear: [Some(field(1)), Some(field(2))] }
+    }
+
+    #[test]
+    fn in_layers_alike_it_is_that_of_the_half_space_at_both_sides_of_interfaces() {
+        let grid = Grid::new([10, 9], [0.5, 0.7]).unwrap();
+        let tractions = waves_of_tractions(&grid);
+        let layer = Coating::new(0.8, 2.0, 0.3).unwrap();
+        let stack = Stack::new(&Material::elastic(2.0, 0.3).unwrap().layered(vec![layer; 3]));
+        for (boundary, tolerance) in [(Boundary::PERIODIC, 1e-12), (Boundary::FREE, 1e-5)] {
+            let plain = Subsurface::new(grid, boundary, 0.3, &tractions);
+            let layered = Subsurface::new(grid, boundary, 0.3, &tractions).with_layers(stack.clone());
+            for (n, depth) in [(0, 0.0), (0, 0.8), (1, 0.8), (1, 1.3), (3, 2.4), (3, 4.0)] {
+                let (expected, found) = (plain.plane(depth), layered.plane_in(n, depth));
+                for (expected, found) in expected.stress.iter().zip(&found.stress) {
+                    for (expected, found) in expected.iter().zip(found) {
+                        assert_relative_eq!(*found, *expected, epsilon = tolerance);
+                    }
+                }
+            }
+            let depths = [0.0, 0.5, 1.0, 1.5, 2.0];
+            let most = plain.maximum(&[0.0, 0.8, 1.6, 0.5, 1.0, 1.5, 2.0]).von_mises;
+            let layers = layered.layers(&depths);
+            assert_eq!(layers.iter().map(|layer| layer.depth).collect::<Vec<_>>(), [0.0, 0.8, 1.6]);
+            let found = layers.iter().map(|layer| layer.von_mises.value).fold(0.0, f64::max);
+            assert_relative_eq!(found, most.value, max_relative = 10.0 * tolerance);
+        }
+    }
+
+    #[test]
+    fn a_stiff_layer_on_a_soft_body_is_pulled_where_it_bends_and_tractions_cross_the_interface() {
+        let grid = Grid::new([64, 64], [0.25; 2]).unwrap();
+        let pressure = Field::from_shape_fn(grid.shape, |(i, j)| {
+            (1.0 - ((i as f64 - 32.0).powi(2) + (j as f64 - 32.0).powi(2)) / 64.0).max(0.0).sqrt()
+        });
+        let base = Material::elastic(1.0, 0.3).unwrap();
+        let stack = Stack::new(&base.layered(vec![Coating::new(0.5, 10.0, 0.2).unwrap()]));
+        let tractions = Tractions::frictionless(pressure);
+        let body = Subsurface::new(grid, Boundary::PERIODIC, 0.3, &tractions).with_layers(stack);
+        let [above, below] = [0, 1].map(|layer| body.plane_in(layer, 0.5));
+        for component in [Component::Zz, Component::Yz, Component::Xz] {
+            for (above, below) in
+                above.stress[component as usize].iter().zip(&below.stress[component as usize])
+            {
+                assert_relative_eq!(*above, *below, epsilon = 1e-12);
+            }
+        }
+        let layers = body.layers(&[0.0, 0.25, 0.75, 1.5]);
+        let [layer, base] = layers.as_slice() else { panic!("{layers:?}") };
+        // Below the contact the layer bends: its lower face is pulled harder than anything on its surface.
+        assert!(layer.tension_below.unwrap() > layer.tension.max(0.0), "{layer:?}");
+        assert!(base.tension_below.is_none() && base.shear > 0.0 && layer.shear < 1e-10, "{layers:?}");
+        assert!(layer.von_mises.value > base.von_mises.value);
     }
 }

@@ -71,7 +71,7 @@ impl StressAtDepth {
         Component::ALL.map(|component| {
             let imaginary = is_imaginary(traction, component);
             let pair = if imaginary { [None, Some(traction)] } else { [Some(traction), None] };
-            let mut symbol = self.body.symbol(component, pair, self.depth);
+            let mut symbol = self.body.symbol(component, pair, self.depth, None);
             // Two real tables may share a transform, so that only one part of it belongs to this traction.
             let part = |value: Complex64| {
                 if imaginary { Complex64::new(0.0, value.im) } else { Complex64::new(value.re, 0.0) }

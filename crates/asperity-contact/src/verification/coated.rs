@@ -1,23 +1,29 @@
-//! Coated bodies.
+//! Bodies with layers.
 
 use std::f64::consts::PI;
 
 use super::smooth::{RADIUS, sphere_gap};
-use super::{Case, Check, Expected, largest, press, relative, study};
+use super::{Case, Check, Expected, hold, largest, press, relative, study};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
-use crate::kernel::{CoatedHalfSpace, Response};
+use crate::kernel::{LayeredBody, Response};
 use crate::material::{Coating, Material};
-use crate::operator::{FreeFft, Operator, PeriodicFft};
+use crate::operator::{Boundary, FreeFft, Operator, Operators, PeriodicFft};
 use crate::reference::HertzSphere;
-use crate::solver::Control;
+use crate::solver::{Control, Coupling, Friction, Loading, Tangential};
 use crate::units::Pascal;
 
 const RIGID: Pascal = Pascal::INFINITY;
 
-fn coated([young, poisson]: [f64; 2], thickness: f64, layer: [f64; 2]) -> Result<CoatedHalfSpace> {
-    let coating = Coating::new(thickness, layer[0], layer[1])?;
-    Ok(CoatedHalfSpace::new(&Material::elastic(young, poisson)?, &coating))
+fn coated(base: [f64; 2], thickness: f64, layer: [f64; 2]) -> Result<LayeredBody> {
+    layered(base, &[[thickness, layer[0], layer[1]]])
+}
+
+/// Creates a body with layers of these thicknesses, moduli and Poisson's ratios, from the surface down.
+fn layered([young, poisson]: [f64; 2], layers: &[[f64; 3]]) -> Result<LayeredBody> {
+    let layers = layers.iter().map(|[thickness, young, poisson]| Coating::new(*thickness, *young, *poisson));
+    let layers = layers.collect::<Result<_>>()?;
+    Ok(LayeredBody::new(&Material::elastic(young, poisson)?.layered(layers)))
 }
 
 /// A short wave depends on the layer, a long one on the substrate. On a rigid substrate the limit is an
@@ -76,7 +82,7 @@ pub(super) const FREE_AND_PERIODIC: Case = Case {
             let errors = BODIES.map(|(_, base, thickness, layer)| -> Result<f64> {
                 let body = coated(base, thickness, layer)?;
                 let (mut free, mut periodic) = (grid.zeros(), grid.zeros());
-                FreeFft::new(grid, body).apply(&pressure, &mut free);
+                FreeFft::new(grid, body.clone()).apply(&pressure, &mut free);
                 PeriodicFft::new(grid, body).apply(&pressure, &mut periodic);
                 Ok(largest(&(&free - &periodic)) / largest(&periodic))
             });
@@ -128,9 +134,62 @@ pub(super) const FOUNDATION: Case = Case {
             ("peak pressure", Expected::Order { order: 1.5..=2.2, finest: 1e-3 }),
             ("approach", Expected::Order { order: 1.4..=2.2, finest: 1e-3 }),
         ];
-        thin_layer(checks, [young, poisson], |thickness| {
+        thin_layers(checks, &[[1.0, young, poisson]], |thickness| {
             let peak = foundation / (2.0 * RADIUS * thickness);
             [0.5 * PI * peak, peak, 0.5 / RADIUS]
+        })
+    },
+};
+
+/// Two compressible layers thin compared with the contact, on a rigid body: foundations in series, t₁/M₁ + t₂/M₂.
+pub(super) const SERIES: Case = Case {
+    name: "Layered body: two thin layers on a rigid body",
+    source: "Johnson (1985), section 5.8",
+    checks: || {
+        let layers = [[0.4, 1.0, 0.3], [0.6, 3.0, 0.2]];
+        let compliance: f64 = layers
+            .iter()
+            .map(|[share, young, poisson]| {
+                share * (1.0 + poisson) * (1.0 - 2.0 * poisson) / (young * (1.0 - poisson))
+            })
+            .sum();
+        let checks = [
+            ("peak pressure", Expected::Order { order: 1.5..=2.2, finest: 1e-3 }),
+            ("approach", Expected::Order { order: 1.4..=2.4, finest: 1e-3 }),
+        ];
+        thin_layers(checks, &layers, |thickness| {
+            let peak = (2.0 * RADIUS * thickness * compliance).recip();
+            [0.5 * PI * peak, peak, 0.5 / RADIUS]
+        })
+    },
+};
+
+/// A sphere that sticks to two layers thin compared with the contact, on a rigid body, and is pushed along them by s:
+/// foundations in series in shear, Q = πa² s/(t₁/G₁ + t₂/G₂), apart from an edge as wide as the layers are thick.
+pub(super) const SHEARED: Case = Case {
+    name: "Layered body: a sphere that sticks to two thin layers",
+    source: "Johnson (1985), section 5.8",
+    checks: || {
+        let layers = [[0.4, 1.0, 0.3], [0.6, 3.0, 0.2]];
+        let sum = |of: fn(f64, f64) -> f64| -> f64 {
+            layers.iter().map(|[share, young, poisson]| share * of(*young, *poisson)).sum()
+        };
+        let normal = sum(|young, nu| (1.0 + nu) * (1.0 - 2.0 * nu) / (young * (1.0 - nu)));
+        let shear = sum(|young, nu| 2.0 * (1.0 + nu) / young);
+        let checks = [("force", Expected::Order { order: 0.8..=1.3, finest: 0.1 })];
+        study("a/t", &[4, 8, 16], checks, |n| {
+            const SHIFT: f64 = 1e-3;
+            let thickness = 1.0 / n as f64;
+            let grid = Grid::new([10 * n; 2], [0.25 * thickness; 2])?;
+            let body = layered([RIGID, 0.0], &of_thickness(&layers, thickness))?;
+            let mut operator = Operators::new(grid, body, Boundary::FREE).coupled_on(grid.shape);
+            let loading = Loading {
+                normal: Control::Load(0.25 * PI / (RADIUS * thickness * normal)),
+                tangential: Tangential::Displacement([SHIFT, 0.0]),
+            };
+            let friction = Friction::coulomb(f64::INFINITY)?.with_coupling(Coupling::None);
+            let found = hold(operator.as_mut(), &sphere_gap(&grid)?, &friction, loading, None)?;
+            Ok([relative(found.force()[0], PI * SHIFT / (thickness * shear))])
         })
     },
 };
@@ -145,25 +204,30 @@ pub(super) const INCOMPRESSIBLE: Case = Case {
             ("peak pressure", Expected::Order { order: 1.5..=2.2, finest: 0.05 }),
             ("approach", Expected::Order { order: 1.4..=2.2, finest: 0.05 }),
         ];
-        thin_layer(checks, [young, 0.5], |thickness| {
+        thin_layers(checks, &[[1.0, young, 0.5]], |thickness| {
             let peak = young / (32.0 * RADIUS * thickness.powi(3));
             [PI / 3.0 * peak, peak, 0.25 / RADIUS]
         })
     },
 };
 
-/// A sphere on a layer with the thickness a/n on a rigid body. The load is that at which the contact radius
-/// is a = 1 for t → 0. `limit` returns load, peak pressure and approach in this limit.
-fn thin_layer(
+/// Returns layers of a total thickness, of which each has its share.
+fn of_thickness(layers: &[[f64; 3]], thickness: f64) -> Vec<[f64; 3]> {
+    layers.iter().map(|[share, young, poisson]| [share * thickness, *young, *poisson]).collect()
+}
+
+/// A sphere on layers with the total thickness t = a/n on a rigid body, each with its share of it. The load is that at
+/// which the contact radius is a = 1 for t → 0. `limit` returns load, peak pressure and approach in this limit.
+fn thin_layers(
     checks: [(&'static str, Expected); 2],
-    layer: [f64; 2],
+    layers: &[[f64; 3]],
     limit: impl Fn(f64) -> [f64; 3],
 ) -> Result<Vec<Check>> {
     study("a/t", &[4, 8, 16], checks, |n| {
         let thickness = 1.0 / n as f64;
         let grid = Grid::new([10 * n; 2], [0.25 * thickness; 2])?;
         let [load, peak, approach] = limit(thickness);
-        let mut operator = FreeFft::new(grid, coated([RIGID, 0.0], thickness, layer)?);
+        let mut operator = FreeFft::new(grid, layered([RIGID, 0.0], &of_thickness(layers, thickness))?);
         let solution = press(&mut operator, &sphere_gap(&grid)?, Pascal::INFINITY, Control::Load(load))?;
         Ok([relative(solution.max_pressure(), peak), relative(solution.approach, approach)])
     })

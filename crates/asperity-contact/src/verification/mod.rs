@@ -141,6 +141,8 @@ pub const CASES: &[Case] = &[
     coated::FREE_AND_PERIODIC,
     coated::THICK,
     coated::FOUNDATION,
+    coated::SERIES,
+    coated::SHEARED,
     coated::INCOMPRESSIBLE,
     rough::PLASTIC_LIMIT,
     rough::WORK,

@@ -324,7 +324,7 @@ fn roll(body: &mut PlasticBody, load: &mut MovingStress) -> Result<Pass> {
         load.at = position;
         advance(&mut [body], load, Some(&[[1, 0]]), &PlasticParams::new())?;
     }
-    let material = *body.volume().material();
+    let material = body.volume().material();
     let shear_modulus = 0.5 * material.young / (1.0 + material.poisson);
     let layers = body.volume().layers().clone();
     let shear = body.mean_shear();

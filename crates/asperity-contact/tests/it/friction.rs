@@ -2,11 +2,12 @@
 //! every solution must satisfy.
 
 use asperity_base::{Error, Field, Grid};
-use asperity_contact::material::Compliances;
+use asperity_contact::kernel::{SharedResponse, response};
+use asperity_contact::material::{Coating, Compliances, Material};
 use asperity_contact::operator::{Boundary, CoupledOperator, CoupledSum, Operators};
 use asperity_contact::solver::{
-    Bounds, Control, Coupling, Friction, FrictionalSolution, Loading, Params, Tangential, solve_frictional,
-    solve_normal,
+    Bounds, Control, Coupling, Creep, Friction, FrictionalSolution, Loading, Params, Rolling, Tangential,
+    solve_frictional, solve_normal, solve_rolling,
 };
 
 use crate::support::cell_by_cell::CellByCell;
@@ -97,6 +98,41 @@ fn forces_and_displacements_are_two_ways_to_say_the_same() {
             assert!(one.dissipation(by_force.as_ref()) >= 0.0);
             (by_force, by_shift) = (Some(one), Some(other));
         }
+    }
+}
+
+#[test]
+fn layers_like_their_body_stick_slip_and_roll_as_the_body() {
+    let grid = Grid::new([24, 20], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape).mapv(|h| 0.2 * h);
+    let friction = Friction::coulomb(0.3).unwrap();
+    let (soft, stiff) = (Material::elastic(1.0, 0.2).unwrap(), Material::elastic(30.0, 0.3).unwrap());
+    let layers = soft.clone().layered(vec![Coating::new(0.8, 1.0, 0.2).unwrap(); 3]);
+    for boundary in [Boundary::FREE, Boundary::PERIODIC] {
+        let loading = Loading { normal: Control::Load(4.0), tangential: Tangential::Force([0.3, -0.9]) };
+        let of = |lower: &Material| {
+            let pair = response(lower, &stiff).unwrap();
+            let mut operator = Operators::new(grid, pair, boundary).coupled_on(grid.shape);
+            solve(operator.as_mut(), &gap, INF, &friction, loading, None)
+        };
+        let (plain, layered) = (of(&soft), of(&layers));
+        let most = plain.normal.max_pressure();
+        let fields =
+            |of: &FrictionalSolution| [of.normal.pressure.clone(), of.shear[0].clone(), of.shear[1].clone()];
+        for (one, other) in fields(&plain).iter().zip(&fields(&layered)) {
+            let error = largest(&(one - other));
+            assert!(error < 1e-8 * most, "{boundary:?}: {error:e} of {most:e}");
+        }
+        let rolled = |lower: &Material| {
+            let pair = response(lower, &stiff).unwrap();
+            let mut operator = Operators::new(grid, pair, boundary).coupled_on(grid.shape);
+            let rolling = Rolling { creep: Creep::Creepage([2e-3, 0.0]), spin: 0.0 };
+            let load = Control::Load(4.0);
+            solve_rolling(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, load, rolling, &PARAMS)
+                .unwrap()
+        };
+        let forces = [&soft, &layers].map(|lower| rolled(lower).contact.force());
+        assert!(forces[0][0].abs() > 0.01 && (forces[0][0] / forces[1][0] - 1.0).abs() < 1e-7, "{forces:?}");
     }
 }
 
@@ -258,7 +294,16 @@ fn more_force_than_friction_holds_is_an_error_with_the_limit() {
 fn an_increment_is_what_a_cell_by_cell_iteration_finds() {
     let grid = Grid::new([9, 8], [1.0, 0.8]).unwrap();
     let gap = gap(grid.shape);
-    for (pair, name) in [(alike(), "alike"), (dissimilar(), "dissimilar")] {
+    let rigid = Material::elastic(INF, 0.0).unwrap();
+    let layers = [[1.0, 4.0, 0.2], [0.7, 0.5, 0.45]]
+        .map(|[t, young, poisson]| Coating::new(t, young, poisson).unwrap());
+    let layered = Material::elastic(2.0, 0.3).unwrap().layered(layers.to_vec());
+    for (pair, name) in [
+        (alike().into(), "alike"),
+        (dissimilar().into(), "dissimilar"),
+        (response(&layered, &rigid).unwrap(), "layered"),
+    ] {
+        let pair: SharedResponse = pair;
         for coupling in [Coupling::Full, Coupling::Goodman, Coupling::None] {
             for (coefficient, shear_strength, hardness) in [
                 (0.3, f64::INFINITY, f64::INFINITY),
@@ -270,7 +315,7 @@ fn an_increment_is_what_a_cell_by_cell_iteration_finds() {
                     .unwrap()
                     .with_shear_strength(shear_strength)
                     .with_coupling(coupling);
-                let mut operator = CoupledSum::new(grid, pair);
+                let mut operator = CoupledSum::new(grid, pair.clone());
                 let reference = CellByCell::new(&mut operator, coupling);
                 let what = format!("{name}, {friction:?}, H = {hardness}");
                 let mut before: Option<FrictionalSolution> = None;

@@ -160,7 +160,7 @@ impl Case {
             self_affine(&grid, Amplitude::Sq(self.sq), None, seed)
         };
         let [a, b] = [0, 1].map(|k| Material {
-            coating: self.coatings[k],
+            layers: self.coatings[k].into_iter().collect(),
             ..Material::new(self.young[k], 0.3, self.hardness[k]).unwrap()
         });
         let seed = self.seed % 1_000_000;

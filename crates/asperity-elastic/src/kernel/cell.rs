@@ -18,23 +18,49 @@ pub(super) fn integral(
     closed: impl Fn(f64, f64) -> f64,
     k: impl Fn(f64, f64) -> f64,
 ) -> f64 {
-    integral_below(at, 0.0, half, closed, k)
+    if at[0].hypot(at[1]) > FAR * half[0].max(half[1]) {
+        by_quadrature(at, half, k)
+    } else {
+        by_corners(at, half, closed)
+    }
 }
 
-/// [`integral`] of a function that is smooth on the scale of the distance from a point at this `depth`.
-pub(super) fn integral_below(
+/// [`integral`] of several functions that are smooth on the scale of the distance from a point at this `depth`.
+///
+/// Beyond 200 half-sides 2 × 2 Gauss points have an error of (a/r)⁴/10, below 1e-10 of k, and 1e-12 of k near the cell.
+pub(super) fn integrals_below<const N: usize>(
     [x, y]: [f64; 2],
     depth: f64,
-    half: [f64; 2],
-    closed: impl Fn(f64, f64) -> f64,
-    k: impl Fn(f64, f64) -> f64,
-) -> f64 {
-    let [a, b] = half;
-    if x.hypot(y).hypot(depth) > FAR * a.max(b) {
-        by_quadrature([x, y], half, k)
+    [a, b]: [f64; 2],
+    closed: impl Fn(f64, f64) -> [f64; N],
+    k: impl Fn(f64, f64) -> [f64; N],
+) -> [f64; N] {
+    /// Beyond this number of half-sides two points along each are enough.
+    const FARTHER: f64 = 200.0;
+    let mut sums = [0.0; N];
+    let mut add = |weight: f64, values: [f64; N]| {
+        sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
+    };
+    let distance = x.hypot(y).hypot(depth) / a.max(b);
+    if distance > FARTHER {
+        far_points([x, y], [a, b]).into_iter().for_each(|[x, y]| add(a * b, k(x, y)));
+    } else if distance > FAR {
+        gauss_points([x, y], [a, b]).for_each(|([x, y], weight)| add(weight * a * b, k(x, y)));
     } else {
-        by_corners([x, y], half, closed)
+        let signs = [1.0, -1.0, -1.0, 1.0];
+        corners([x, y], [a, b]).into_iter().zip(signs).for_each(|([x, y], sign)| add(sign, closed(x, y)));
     }
+    sums
+}
+
+/// Returns the corners of a cell, relative to the point `at`.
+fn corners([x, y]: [f64; 2], [a, b]: [f64; 2]) -> [[f64; 2]; 4] {
+    [[x + a, y + b], [x - a, y + b], [x + a, y - b], [x - a, y - b]]
+}
+
+/// Returns the 2 × 2 Gauss points of a cell, relative to the point `at`, each of weight 1. For 1/r the error is (a/r)⁴/10.
+pub(super) fn far_points(at: [f64; 2], half: [f64; 2]) -> [[f64; 2]; 4] {
+    corners(at, half.map(|half| half / 3f64.sqrt()))
 }
 
 /// Computes the means over −b … b of η of [`integral`] at (x, y + 2bj + η), j below `columns`, for the closed

@@ -33,6 +33,18 @@ impl Coefficients {
         [[xx, xy, -zx], [xy, yy, -zy], [zx, zy, zz]]
     }
 
+    /// Returns the coefficients of a lower body with these and an `upper` body, each under a rigid one.
+    pub(super) fn against(self, upper: Self) -> Self {
+        Self {
+            xx: self.xx + upper.xx,
+            xy: self.xy + upper.xy,
+            yy: self.yy + upper.yy,
+            zx: self.zx - upper.zx,
+            zy: self.zy - upper.zy,
+            zz: self.zz + upper.zz,
+        }
+    }
+
     /// Returns the coefficients at an offset with these signs, from the coefficients `self` at the offset
     /// with positive signs. Odd coefficients vanish at 0.
     pub(super) fn at_offset(self, [x, y]: [f64; 2]) -> Self {

@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 use ndarray::Array2;
 
 use crate::grid::Field;
-use crate::kernel::Coefficients;
 use crate::kernel::cell::{asinh_term, integral, logarithm_term};
+use crate::kernel::{Coefficients, CoupledResponse};
 use crate::material::Compliances;
 use crate::units::Metre;
 
@@ -19,11 +19,10 @@ pub struct CoupledTable {
 
 impl CoupledTable {
     /// Computes the coefficients of a grid of `shape` cells of size `pitch`.
-    pub fn new(shape: [usize; 2], pitch: [Metre; 2], compliances: &Compliances) -> Self {
-        let table = Array2::from_shape_fn(shape, |(i, j)| {
-            coupled_displacement(i as f64 * pitch[0], j as f64 * pitch[1], pitch, compliances)
-        });
-        Self { table }
+    pub fn new(shape: [usize; 2], pitch: [Metre; 2], response: &dyn CoupledResponse) -> Self {
+        let influence = response.coupled_influence(pitch);
+        let at = |(i, j)| influence(i as f64 * pitch[0], j as f64 * pitch[1]);
+        Self { table: Array2::from_shape_fn(shape, at) }
     }
 
     /// Returns the displacement of the cell `to` per unit traction on the cell `from`.
@@ -41,8 +40,8 @@ impl CoupledTable {
 /// Computes the dense influence matrix of a grid with all nine coefficients, m/Pa. `[m + i M, n + j M]` is
 /// the displacement along i of cell m of M per unit traction along j on cell n. Cells are numbered as in
 /// [`super::influence_matrix`]. The matrix is symmetric and positive definite, and takes 72 M² bytes.
-pub fn coupled_matrix(shape: [usize; 2], pitch: [Metre; 2], compliances: &Compliances) -> Field {
-    let table = CoupledTable::new(shape, pitch, compliances);
+pub fn coupled_matrix(shape: [usize; 2], pitch: [Metre; 2], response: &dyn CoupledResponse) -> Field {
+    let table = CoupledTable::new(shape, pitch, response);
     let cells = shape[0] * shape[1];
     let place = |cell: usize| [cell / shape[1], cell % shape[1]];
     Field::from_shape_fn([3 * cells, 3 * cells], |(m, n)| {

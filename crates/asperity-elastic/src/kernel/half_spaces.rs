@@ -1,8 +1,12 @@
 //! Response of homogeneous half-spaces.
 
 use crate::grid::Field;
-use crate::kernel::spectral::harmonic_displacement;
-use crate::kernel::{Influence, Line, Response, SharedResponse, normal_displacement};
+use crate::kernel::coupled::coupled_displacement;
+use crate::kernel::spectral::{harmonic_displacement, harmonic_displacements};
+use crate::kernel::{
+    Coefficients, CoupledInfluence, CoupledResponse, Influence, Line, Response, SharedResponse,
+    normal_displacement,
+};
 use crate::material::Compliances;
 use crate::units::{Metre, Pascal};
 
@@ -58,8 +62,29 @@ impl Response for HalfSpaces {
         Some(self.modulus)
     }
 
-    fn compliances(&self) -> Option<&Compliances> {
-        self.compliances.as_ref()
+    fn coupled(&self) -> Option<&dyn CoupledResponse> {
+        self.compliances.as_ref().map(|compliances| compliances as &dyn CoupledResponse)
+    }
+}
+
+/// Half-spaces with these compliances.
+impl CoupledResponse for Compliances {
+    fn couples(&self) -> bool {
+        self.coupling != 0.0
+    }
+
+    fn harmonic_displacements(&self, qx: f64, qy: f64) -> Coefficients {
+        harmonic_displacements(qx, qy, self)
+    }
+
+    fn coupled_influence(&self, pitch: [Metre; 2]) -> Box<CoupledInfluence> {
+        let compliances = *self;
+        Box::new(move |x, y| coupled_displacement(x, y, pitch, &compliances))
+    }
+
+    fn coupled_line_influence(&self, line: &Line, pitch: [Metre; 2]) -> Option<Box<CoupledInfluence>> {
+        let (line, compliances) = (*line, *self);
+        Some(Box::new(move |x, y| line.coupled_displacement(x, y, pitch, &compliances)))
     }
 }
 

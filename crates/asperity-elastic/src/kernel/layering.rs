@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use crate::kernel::cell::integral_below;
+use crate::kernel::cell::integrals_below;
 use crate::kernel::{Influence, normal_displacement};
-use crate::math::gauss_legendre;
+use crate::math::{gauss_legendre, parallel};
 use crate::units::Metre;
 
 /// Isotropic layered bodies with known harmonics. Short waves have the response of one half-space, long waves
@@ -36,10 +36,11 @@ impl Layering {
     ///
     /// The error is below 1e-11 of the displacement of a cell under its own pressure if û(q) is as exact and
     /// a smooth function of ln q. This holds for any ratio of cell size to depth.
-    pub fn influence(&self, harmonics: impl Fn(f64) -> f64, pitch: [Metre; 2]) -> Box<dyn Influence> {
+    pub fn influence(&self, harmonics: impl Fn(f64) -> f64 + Sync, pitch: [Metre; 2]) -> Box<dyn Influence> {
         let &Self { short, long, depth } = self;
         let rest = |q: f64| harmonics(q) - 2.0 / q * (short + (long - short) * (-q * depth).exp());
-        let remainder = Remainder::new(rest, depth);
+        let both = |q: f64| [rest(q); 2];
+        let remainder = Remainder::new(both, [Transform::Hankel, Transform::Mean], depth, Metre::INFINITY);
         Box::new(Layered { layering: *self, pitch, remainder })
     }
 }
@@ -48,7 +49,7 @@ impl Layering {
 struct Layered {
     layering: Layering,
     pitch: [Metre; 2],
-    remainder: Remainder,
+    remainder: Remainder<2>,
 }
 
 impl Influence for Layered {
@@ -56,14 +57,14 @@ impl Influence for Layered {
         let Self { layering: Layering { short, long, depth }, pitch, remainder } = self;
         let (half, image) = (pitch.map(|p| 0.5 * p), (long - short) / PI);
         let below = |x: f64, y: f64| image / (x * x + y * y + depth * depth).sqrt();
-        short * normal_displacement(x, y, *pitch, 1.0)
-            + integral_below(
-                [x, y],
-                *depth,
-                half,
-                |x, y| image * potential_below(x, y, *depth) + remainder.of_rectangle(x, y),
-                |x, y| below(x, y) + remainder.at(x, y),
-            )
+        let [rest] = integrals_below(
+            [x, y],
+            *depth,
+            half,
+            |x, y| [image * potential_below(x, y, *depth) + remainder.of_rectangle(x, y)],
+            |x, y| [below(x, y) + remainder.at(x.hypot(y))[0]],
+        );
+        short * normal_displacement(x, y, *pitch, 1.0) + rest
     }
 }
 
@@ -74,18 +75,46 @@ fn potential_below(x: f64, y: f64, z: f64) -> f64 {
     x * (y / across).asinh() + y * (x / along).asinh() - z * (x * y / (z * r)).atan()
 }
 
-/// The Hankel transform ρ(r) of a remainder, and its mean w within r,
+/// Transforms of functions R(q), see [`Transform`], tabulated over asinh(r/d).
 ///
-/// ```text
-/// ρ(r) = ∫ R(q) q J₀(qr) dq/2π        w(r) = ∫₀^r ρ(s) s ds/r² = ∫ R(q) q J₁(qr)/(qr) dq/2π
-/// ```
-///
-/// Both are multiplied by r² + d², and are then bounded and smooth in asinh(r/d).
-struct Remainder {
+/// Each is multiplied by a power of r² + d², and is then bounded and smooth.
+pub(super) struct Remainder<const N: usize> {
     depth: Metre,
-    /// Chebyshev coefficients of both, for each interval of unit width in asinh(r/d).
-    pieces: Vec<[[f64; ORDER]; 2]>,
+    transforms: [Transform; N],
+    /// Chebyshev coefficients of all of them, for each interval of unit width in asinh(r/d).
+    pieces: Vec<[[f64; N]; ORDER]>,
     nodes: Vec<(f64, f64)>,
+}
+
+/// A transform of a function R(q).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Transform {
+    /// ρ(r) = ∫ R(q) J₀(qr) q dq/2π.
+    Hankel,
+    /// ∫ R(q) Jₙ(qr) q dq/2π, n > 0.
+    Order(i32),
+    /// Mean of ρ within r, w(r) = ∫₀^r ρ(s) s ds/r² = ∫ R(q) J₁(qr)/(qr) q dq/2π.
+    Mean,
+    /// φ(r) = ∫ R(q) J₀(qr) dq/2π.
+    Potential,
+}
+
+impl Transform {
+    /// Returns the factor of the tabulated values, for r² + d².
+    fn power(self, squared: f64) -> f64 {
+        if self == Self::Potential { squared.sqrt() } else { squared }
+    }
+
+    /// The integrand over R(q), at x = qr.
+    fn weight(self, q: f64, x: f64) -> f64 {
+        match self {
+            Self::Hankel => q * libm::j0(x),
+            Self::Order(1) => q * libm::j1(x),
+            Self::Order(order) => q * libm::jn(order, x),
+            Self::Mean => q * if x < 1e-4 { 0.5 } else { libm::j1(x) / x },
+            Self::Potential => libm::j0(x),
+        }
+    }
 }
 
 /// Number of Chebyshev coefficients of an interval. The nearest singularity, at a distance of ±iπ/2, gives an
@@ -94,67 +123,92 @@ const ORDER: usize = 18;
 /// Number of intervals, until the remainder has decayed to d²/r² = 1e-10 of the other terms.
 const PIECES: usize = 13;
 
-impl Remainder {
-    fn new(rest: impl Fn(f64) -> f64, depth: Metre) -> Self {
+impl<const N: usize> Remainder<N> {
+    /// Tabulates a transform of each of the functions `rest` = R(q) of one scale, for distances up to `reach`.
+    pub(super) fn new(
+        rest: impl Fn(f64) -> [f64; N] + Sync,
+        transforms: [Transform; N],
+        depth: Metre,
+        reach: Metre,
+    ) -> Self {
         let nodes = gauss_legendre(16);
-        let pieces = (0..PIECES)
-            .map(|piece| {
-                let values: [[f64; 2]; ORDER] = std::array::from_fn(|k| {
-                    let r = depth * (piece as f64 + 0.5 + 0.5 * chebyshev_angle(k).cos()).sinh();
-                    hankel(&rest, r, depth, &nodes).map(|value| value * (r * r + depth * depth))
-                });
-                [0, 1].map(|which| chebyshev(|k| values[k][which]))
-            })
-            .collect();
-        Self { depth, pieces, nodes }
+        let count = ((reach / depth).asinh() as usize).saturating_add(1).min(PIECES);
+        let pieces = parallel::tasks(0..count, |piece| {
+            let values: [[f64; N]; ORDER] = std::array::from_fn(|k| {
+                let r = depth * (piece as f64 + 0.5 + 0.5 * chebyshev_angle(k).cos()).sinh();
+                hankel(&rest, transforms, r, depth, &nodes)
+            });
+            chebyshev(&values)
+        });
+        Self { depth, transforms, pieces, nodes }
     }
 
-    /// Returns ρ at the distance of `(x, y)`.
-    fn at(&self, x: Metre, y: Metre) -> f64 {
-        let squared = x * x + y * y;
-        let (value, beyond) = self.scaled(squared.sqrt(), 0);
-        value * beyond / (squared + self.depth * self.depth)
-    }
-
-    /// Computes ∬ ρ over 0 … x and 0 … y. In polar coordinates it is the integral of r² w over the angle.
-    /// Each of the two far sides contributes ∫ c w(√(c² + s²)) ds with its distance c and s = √(c² + d²) sinh
-    /// v.
-    fn of_rectangle(&self, x: Metre, y: Metre) -> f64 {
-        let side = |c: f64, length: f64| {
-            let scale = c.hypot(self.depth);
-            let end = (length / scale).asinh();
-            let panels = end.abs().ceil().max(1.0);
-            let half = 0.5 * end / panels;
-            let mut sum = 0.0;
-            for panel in 0..panels as usize {
-                for &(node, weight) in &self.nodes {
-                    let v = half * ((2 * panel + 1) as f64 + node);
-                    let r = c.hypot(scale * v.sinh());
-                    sum += weight * self.scaled(r, 1).0 / v.cosh();
-                }
-            }
-            sum * half * c / scale
-        };
-        side(x, y) + side(y, x)
-    }
-
-    /// Returns (r² + d²) times ρ or w. For r beyond the table it also returns d/r, by which ρ decays further,
-    /// but not w.
-    fn scaled(&self, r: Metre, which: usize) -> (f64, f64) {
+    /// Returns the transforms at the distance r.
+    pub(super) fn at(&self, r: Metre) -> [f64; N] {
         let s = (r / self.depth).asinh();
-        let end = PIECES as f64;
+        let end = self.pieces.len() as f64;
+        // Beyond the table ρ decays further, but none of the others.
         let (s, beyond) = if s < end { (s, 1.0) } else { (end, self.depth * end.sinh() / r) };
-        let piece = (s as usize).min(PIECES - 1);
-        (clenshaw(&self.pieces[piece][which], 2.0 * (s - piece as f64) - 1.0), beyond)
+        let piece = (s as usize).min(self.pieces.len() - 1);
+        let values = clenshaw(&self.pieces[piece], 2.0 * (s - piece as f64) - 1.0);
+        let squared = r * r + self.depth * self.depth;
+        std::array::from_fn(|n| {
+            let beyond = if self.transforms[n] == Transform::Hankel { beyond } else { 1.0 };
+            values[n] * beyond / self.transforms[n].power(squared)
+        })
     }
 }
 
-/// Computes `[ρ, w]` at `r` by Gauss' rule on panels that grow with q up to a few oscillations.
+/// ρ and w.
+impl Remainder<2> {
+    /// Computes ∬ ρ over 0 … x and 0 … y. In polar coordinates it is the integral of r² w over the angle.
+    /// Each of the two far sides contributes ∫ c w(√(c² + s²)) ds with its distance c.
+    fn of_rectangle(&self, x: Metre, y: Metre) -> f64 {
+        let side = |c: f64, length: f64| {
+            let [sum] = along_side(c, length, self.depth, &self.nodes, |r, _| [self.at(r)[1]]);
+            c * sum
+        };
+        side(x, y) + side(y, x)
+    }
+}
+
+/// Computes ∫ f(√(c² + s²), s) ds over 0 … `length` of functions that are smooth on the scale `depth`, with s = √(c² + d²) sinh v.
+pub(super) fn along_side<const N: usize>(
+    c: Metre,
+    length: Metre,
+    depth: Metre,
+    nodes: &[(f64, f64)],
+    f: impl Fn(Metre, Metre) -> [f64; N],
+) -> [f64; N] {
+    let scale = c.hypot(depth);
+    let end = (length / scale).asinh();
+    let panels = end.abs().ceil().max(1.0);
+    let half = 0.5 * end / panels;
+    let mut sums = [0.0; N];
+    for panel in 0..panels as usize {
+        for &(node, weight) in nodes {
+            let v = half * ((2 * panel + 1) as f64 + node);
+            let s = scale * v.sinh();
+            let values = f(c.hypot(s), s);
+            sums = std::array::from_fn(|n| sums[n] + weight * v.cosh() * values[n]);
+        }
+    }
+    sums.map(|sum| sum * half * scale)
+}
+
+/// Computes transforms at `r`, times their powers of r² + d², by Gauss' rule on panels that grow with q up to a few
+/// oscillations.
 ///
 /// At large r only the first oscillations contribute. The integrand is then tapered over many oscillations,
 /// which changes its transform by less than rounding.
-fn hankel(rest: &impl Fn(f64) -> f64, r: Metre, depth: Metre, nodes: &[(f64, f64)]) -> [f64; 2] {
-    /// Lower limit of the integral, in units of 1/r and 1/d. The omitted part is below its square.
+fn hankel<const N: usize>(
+    rest: &impl Fn(f64) -> [f64; N],
+    transforms: [Transform; N],
+    r: Metre,
+    depth: Metre,
+    nodes: &[(f64, f64)],
+) -> [f64; N] {
+    /// Lower limit of the integral, in units of 1/r and 1/d. Below it the integrand is that at the limit.
     const FIRST: f64 = 1e-7;
     /// e^(−qd) is less than 1e-19.
     const LAST: f64 = 45.0;
@@ -165,20 +219,27 @@ fn hankel(rest: &impl Fn(f64) -> f64, r: Metre, depth: Metre, nodes: &[(f64, f64
     let longest = PHASE / r.max(depth);
     let end = (LAST / depth).min((FADE[0] + 6.0 * FADE[1]) / r);
     let mut start = FIRST / r.max(depth);
-    let mut sums = [0.0; 2];
+    let mut sums = [0.0; N];
+    let mut add = |q: f64, width: f64| {
+        let values = rest(q);
+        let mut weights = [0.0; N];
+        for n in 0..N {
+            let known = transforms[..n].iter().position(|other| *other == transforms[n]);
+            weights[n] = known.map_or_else(|| transforms[n].weight(q, q * r), |known| weights[known]);
+            sums[n] += width * values[n] * weights[n];
+        }
+    };
+    add(0.5 * start, start);
     while start < end {
         let half = 0.5 * start.min(longest).min(end - start);
         for &(node, weight) in nodes {
             let q = start + half * (1.0 + node);
-            let x = q * r;
-            let first = if x < 1e-4 { 0.5 } else { libm::j1(x) / x };
-            let fade = 0.5 * libm::erfc((x - FADE[0]) / FADE[1]);
-            let value = weight * half * rest(q) * q * fade / (2.0 * PI);
-            sums = [sums[0] + value * libm::j0(x), sums[1] + value * first];
+            add(q, weight * half * 0.5 * libm::erfc((q * r - FADE[0]) / FADE[1]));
         }
         start += 2.0 * half;
     }
-    sums
+    let squared = r * r + depth * depth;
+    std::array::from_fn(|n| sums[n] * transforms[n].power(squared) / (2.0 * PI))
 }
 
 /// Returns the angle of the k-th node of an interval.
@@ -186,21 +247,24 @@ fn chebyshev_angle(k: usize) -> f64 {
     PI * (k as f64 + 0.5) / ORDER as f64
 }
 
-/// Returns the coefficients of the polynomial with these values at the nodes.
-fn chebyshev(value: impl Fn(usize) -> f64) -> [f64; ORDER] {
-    std::array::from_fn(|n| {
-        let sum: f64 = (0..ORDER).map(|k| value(k) * (n as f64 * chebyshev_angle(k)).cos()).sum();
-        sum * if n == 0 { 1.0 } else { 2.0 } / ORDER as f64
+/// Returns the coefficients of the polynomials with these values at the nodes.
+fn chebyshev<const N: usize>(values: &[[f64; N]; ORDER]) -> [[f64; N]; ORDER] {
+    std::array::from_fn(|order| {
+        let scale = if order == 0 { 1.0 } else { 2.0 } / ORDER as f64;
+        std::array::from_fn(|n| {
+            let sum: f64 = (0..ORDER).map(|k| values[k][n] * (order as f64 * chebyshev_angle(k)).cos()).sum();
+            sum * scale
+        })
     })
 }
 
-/// Σ cₙ Tₙ(x).
-fn clenshaw(coefficients: &[f64; ORDER], x: f64) -> f64 {
-    let (mut one, mut two) = (0.0, 0.0);
+/// Σ cₙ Tₙ(x) of several polynomials.
+fn clenshaw<const N: usize>(coefficients: &[[f64; N]; ORDER], x: f64) -> [f64; N] {
+    let (mut one, mut two) = ([0.0; N], [0.0; N]);
     for c in coefficients[1..].iter().rev() {
-        (one, two) = (c + 2.0 * x * one - two, one);
+        (one, two) = (std::array::from_fn(|n| c[n] + 2.0 * x * one[n] - two[n]), one);
     }
-    coefficients[0] + x * one - two
+    std::array::from_fn(|n| coefficients[0][n] + x * one[n] - two[n])
 }
 
 #[cfg(test)]
@@ -220,13 +284,14 @@ mod tests {
             for cells in [[0.0, 0.0], [1.0, 0.0], [0.0, 7.0], [14.0, 15.0], [300.0, 20.0], [0.0, 1e7]] {
                 let [x, y] = [0, 1].map(|axis| cells[axis] * pitch[axis]);
                 let seen_at = |z: f64| {
-                    integral_below(
+                    let [seen] = integrals_below(
                         [x, y],
                         z,
                         pitch.map(|p| 0.5 * p),
-                        |x, y| potential_below(x, y, z),
-                        |x, y| 1.0 / x.hypot(y).hypot(z),
-                    )
+                        |x, y| [potential_below(x, y, z)],
+                        |x, y| [1.0 / x.hypot(y).hypot(z)],
+                    );
+                    seen
                 };
                 let exact = short * normal_displacement(x, y, pitch, 1.0)
                     + half / PI * (seen_at(depth) + seen_at(1.5 * depth));

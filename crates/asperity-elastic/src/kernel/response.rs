@@ -5,8 +5,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use crate::grid::Field;
-use crate::kernel::Line;
-use crate::material::Compliances;
+use crate::kernel::{Coefficients, Line};
 use crate::math::parallel;
 use crate::units::{Metre, Pascal};
 
@@ -39,13 +38,36 @@ pub trait Response: Debug + Send + Sync {
         None
     }
 
-    /// Returns the compliances of homogeneous half-spaces, which give the displacement in all directions under
-    /// a traction in any direction; `None` if it is unknown. Friction is then limited to full sliding without
-    /// normal displacement.
-    fn compliances(&self) -> Option<&Compliances> {
+    /// Returns the displacement in all directions under a traction in any direction; `None` if it is unknown.
+    /// Friction is then limited to full sliding without normal displacement.
+    fn coupled(&self) -> Option<&dyn CoupledResponse> {
         None
     }
 }
+
+/// Displacement of a pair of bodies in all directions under a traction in any direction.
+pub trait CoupledResponse: Send + Sync {
+    /// Whether a pressure displaces tangentially and a shear normally.
+    fn couples(&self) -> bool;
+
+    /// Returns the displacements per unit traction of the harmonic of angular wavenumber `(qx, qy)`, m/Pa, and zeros
+    /// at q = 0, where the displacement of a periodic surface is free. zx and zy are the imaginary parts of
+    /// purely imaginary coefficients.
+    fn harmonic_displacements(&self, qx: f64, qy: f64) -> Coefficients;
+
+    /// Returns the displacements per unit traction on a cell of size `pitch`, m/Pa.
+    fn coupled_influence(&self, pitch: [Metre; 2]) -> Box<CoupledInfluence>;
+
+    /// Returns the displacements per unit traction on each cell of size `pitch` in a `line`, m/Pa; `None` if they are
+    /// unknown.
+    fn coupled_line_influence(&self, line: &Line, pitch: [Metre; 2]) -> Option<Box<CoupledInfluence>> {
+        let _ = (line, pitch);
+        None
+    }
+}
+
+/// Displacements at `(x, y)` per unit traction on a cell centred at the origin, m/Pa.
+pub type CoupledInfluence = dyn Fn(Metre, Metre) -> Coefficients + Send + Sync;
 
 /// Normal displacement around a loaded cell centred at the origin.
 pub trait Influence: Send + Sync {

@@ -12,7 +12,7 @@ use asperity_base::table::Table as _;
 use asperity_derive::Table;
 
 /// An elastic, or elastic–perfectly plastic, isotropic material.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Young's modulus, > 0; infinite for a rigid body.
     pub young: Pascal,
@@ -20,16 +20,16 @@ pub struct Material {
     pub poisson: f64,
     /// Hardness, > 0: the largest pressure that the body can carry; infinite for an elastic body.
     pub hardness: Pascal,
-    /// Coating of the body, if any. The elastic constants above belong to the substrate. The hardness caps
-    /// the pressure, whether the coating or the substrate yields.
-    pub coating: Option<Coating>,
+    /// Layers on the body, from the surface down. The elastic constants above belong to the body below them.
+    /// The hardness caps the pressure, whether a layer or the body yields.
+    pub layers: Vec<Coating>,
 }
 
 const THICK: Beside = Beside::most(Scale::Side, 1.0, "contacts do not feel the body under it");
 
 /// An elastic, isotropic layer of uniform thickness, bonded to a body.
 #[derive(Table, Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-#[table("lower.coating", "upper.coating")]
+#[table("lower.coating", "upper.coating", "lower.layers", "upper.layers")]
 pub struct Coating {
     /// Thickness of the layer.
     #[key(quantity = Length, range = AboveZero, example = "\"2 um\"", exists = exists::LAYER, beside = [THICK])]
@@ -100,21 +100,31 @@ impl Material {
         )?;
         check("poisson", poisson, (0.0..=0.5).contains(&poisson), "Poisson's ratio from 0 to 0.5")?;
         check_in(Dimension::Pressure, "hardness", hardness, hardness > 0.0, "a hardness above 0")?;
-        Ok(Self { young, poisson, hardness, coating: None })
+        Ok(Self { young, poisson, hardness, layers: Vec::new() })
     }
 
-    /// Adds a `coating` to a body of this material.
+    /// Sets the layer on a body of this material, a coating.
     pub fn coated(self, coating: Coating) -> Self {
-        Self { coating: Some(coating), ..self }
+        self.layered(vec![coating])
     }
 
-    /// Plane-strain modulus E/(1 − ν²), without the coating.
+    /// Sets the layers on a body of this material, from the surface down.
+    pub fn layered(self, layers: Vec<Coating>) -> Self {
+        Self { layers, ..self }
+    }
+
+    /// Whether the body has layers.
+    pub fn is_layered(&self) -> bool {
+        !self.layers.is_empty()
+    }
+
+    /// Plane-strain modulus E/(1 − ν²), without the layers.
     pub fn plane_strain_modulus(&self) -> Pascal {
         self.young / (1.0 - self.poisson * self.poisson)
     }
 }
 
-/// Compliances of a pair of half-spaces, 1/Pa, without their coatings.
+/// Compliances of a pair of half-spaces, 1/Pa, without their layers.
 ///
 /// ```text
 /// 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂                                normal
@@ -127,7 +137,7 @@ impl Material {
 /// 5.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compliances {
-    /// 1/E* > 0; 0 for rigid bodies if one is coated.
+    /// 1/E* > 0; 0 for rigid bodies if one has layers.
     pub normal: f64,
     /// 1/N* ≥ 0.
     pub lateral: f64,
@@ -139,7 +149,7 @@ impl Compliances {
     /// Computes the compliances of a pair of bodies.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if both bodies are rigid, and neither is coated.
+    /// [`Error::OutOfRange`] if both bodies are rigid, and neither has layers.
     pub fn new(lower: &Material, upper: &Material) -> Result<Self> {
         let of = |m: &Material| {
             let (e, nu) = (m.young, m.poisson);
@@ -148,7 +158,7 @@ impl Compliances {
         let (one, other) = (of(lower), of(upper));
         let this =
             Self { normal: one[0] + other[0], lateral: one[1] + other[1], coupling: one[2] - other[2] };
-        if this.normal > 0.0 || lower.coating.is_some() || upper.coating.is_some() {
+        if this.normal > 0.0 || lower.is_layered() || upper.is_layered() {
             Ok(this)
         } else {
             Err(Error::OutOfRange {
@@ -170,11 +180,6 @@ impl Compliances {
         if self.normal == 0.0 { 0.0 } else { self.coupling / self.normal }
     }
 
-    /// Whether a pressure displaces tangentially and a shear normally.
-    pub fn couples(&self) -> bool {
-        self.coupling != 0.0
-    }
-
     /// Returns the compliances without coupling between normal and tangential tractions.
     pub fn uncoupled(&self) -> Self {
         Self { coupling: 0.0, ..*self }
@@ -184,7 +189,7 @@ impl Compliances {
 /// Composite modulus E* of a pair, see [`Compliances`].
 ///
 /// # Errors
-/// [`Error::OutOfRange`] if both bodies are rigid, and neither is coated.
+/// [`Error::OutOfRange`] if both bodies are rigid, and neither has layers.
 pub fn composite_modulus(lower: &Material, upper: &Material) -> Result<Pascal> {
     Compliances::new(lower, upper).map(|pair| pair.modulus())
 }
@@ -219,13 +224,13 @@ mod tests {
     #[test]
     fn identical_bodies_and_incompressible_ones_are_not_coupled() {
         let material = |young, poisson| Material::elastic(young, poisson).unwrap();
-        let beta = |a, b| Compliances::new(&a, &b).unwrap().dundurs();
-        assert_eq!(beta(material(3.0, 0.3), material(3.0, 0.3)), 0.0);
-        assert_eq!(beta(material(1.0, 0.5), material(7.0, 0.5)), 0.0);
+        let beta = |a: &Material, b: &Material| Compliances::new(a, b).unwrap().dundurs();
+        assert_eq!(beta(&material(3.0, 0.3), &material(3.0, 0.3)), 0.0);
+        assert_eq!(beta(&material(1.0, 0.5), &material(7.0, 0.5)), 0.0);
         // Rigid on elastic: (1 − 2ν)/2(1 − ν).
         let (soft, rigid) = (material(2.0, 0.2), material(f64::INFINITY, 0.3));
-        assert!((beta(soft, rigid) - 0.375).abs() < 1e-15);
-        assert_eq!(beta(soft, rigid), -beta(rigid, soft));
+        assert!((beta(&soft, &rigid) - 0.375).abs() < 1e-15);
+        assert_eq!(beta(&soft, &rigid), -beta(&rigid, &soft));
         assert_eq!(Compliances::new(&soft, &rigid).unwrap().lateral, 0.12);
     }
 

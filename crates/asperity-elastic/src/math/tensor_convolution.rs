@@ -46,7 +46,7 @@ pub(crate) struct TensorKernel<T> {
 impl TensorKernel<f64> {
     /// Creates the tensor on a cyclic grid of `shape` with the values `at(i, j)` (xx, xy, yy, zx, zy, zz) at
     /// the offsets i, j, for `i ≤ Mx/2`, `j ≤ My/2`.
-    pub(crate) fn from_values(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
+    pub(crate) fn from_values(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6] + Sync) -> Self {
         let plans = Plans::new(shape);
         let tables = tables(shape, at);
         let spectra = std::array::from_fn(|n| {
@@ -59,7 +59,7 @@ impl TensorKernel<f64> {
 
     /// Creates the tensor on a cyclic grid of `shape` with the transforms `at(kx, ky)` (xx, xy, yy, zx/i,
     /// zy/i, zz) at its bins, for `kx ≤ Mx/2`, `ky ≤ My/2`.
-    pub(crate) fn from_transforms(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
+    pub(crate) fn from_transforms(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6] + Sync) -> Self {
         let own_opposite = |k: usize, n: usize| k == 0 || 2 * k == n;
         let mut spectra =
             tables(shape, at).map(|table| table.reversed_axes().as_standard_layout().into_owned());
@@ -92,15 +92,10 @@ impl TensorKernel<f64> {
     }
 }
 
-fn tables(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> [Field; 6] {
-    let half = shape.map(|n| n / 2 + 1);
-    let mut tables: [Field; 6] = std::array::from_fn(|_| Field::zeros(half));
-    for i in 0..half[0] {
-        for j in 0..half[1] {
-            at(i, j).into_iter().zip(&mut tables).for_each(|(value, table)| table[[i, j]] = value);
-        }
-    }
-    tables
+fn tables(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6] + Sync) -> [Field; 6] {
+    let [rows, columns] = shape.map(|n| n / 2 + 1);
+    let values = parallel::tasks(0..rows, |i| (0..columns).map(|j| at(i, j)).collect::<Vec<_>>());
+    std::array::from_fn(|n| Field::from_shape_fn([rows, columns], |(i, j)| values[i][j][n]))
 }
 
 /// Convolution of three fields of one shape with a [`TensorKernel`]; see [`super::Convolution`] for one

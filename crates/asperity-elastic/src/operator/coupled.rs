@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use crate::grid::{Field, Grid, SingleField};
-use crate::kernel::spectral::harmonic_displacements;
-use crate::kernel::{Coefficients, CoupledTable, Line, SharedResponse, coupled_displacement};
-use crate::material::Compliances;
+use crate::kernel::{Coefficients, CoupledInfluence, CoupledResponse, CoupledTable, SharedResponse};
 use crate::math::fft::angular_frequency;
 use crate::math::{MixedTensorConvolution, MixedTensorKernel, TensorKernel};
 use crate::operator::{DirectSum, Operator};
@@ -59,9 +57,9 @@ impl CoupledSum {
     /// If the response is only known in the normal direction.
     pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Self {
         let response = response.into();
-        let compliances = response.compliances().expect("a response to shear");
-        let table = CoupledTable::new(grid.shape, grid.pitch, compliances);
-        let couples = compliances.couples();
+        let coupled = response.coupled().expect("a response to shear");
+        let table = CoupledTable::new(grid.shape, grid.pitch, coupled);
+        let couples = coupled.couples();
         Self { normal: DirectSum::new(grid, response), couples, table }
     }
 }
@@ -110,30 +108,19 @@ pub(super) struct CoupledKernel {
 }
 
 impl CoupledKernel {
-    /// Creates the kernel for grids that fit into the `padded` one. Their edges are free except along the
-    /// `line` of their images.
-    pub(super) fn free(
-        padded: [usize; 2],
-        pitch: [f64; 2],
-        compliances: &Compliances,
-        line: Option<&Line>,
-    ) -> Arc<Self> {
-        let at = |i: usize, j: usize| {
-            let (x, y) = (i as f64 * pitch[0], j as f64 * pitch[1]);
-            match line {
-                None => coupled_displacement(x, y, pitch, compliances),
-                Some(line) => line.coupled_displacement(x, y, pitch, compliances),
-            }
-        };
+    /// Creates the kernel for grids that fit into the `padded` one, with a free edge at least, from the `influence` of a
+    /// cell.
+    pub(super) fn free(padded: [usize; 2], pitch: [f64; 2], influence: &CoupledInfluence) -> Arc<Self> {
+        let at = |i: usize, j: usize| influence(i as f64 * pitch[0], j as f64 * pitch[1]);
         let kernel = TensorKernel::from_values(padded, |i, j| in_order(at(i, j)));
         Arc::new(Self { kernel: Arc::new(MixedTensorKernel::new(kernel)), self_influence: at(0, 0) })
     }
 
     /// Creates the kernel for the periodic `grid`.
-    pub(super) fn periodic(grid: &Grid, compliances: &Compliances) -> Arc<Self> {
+    pub(super) fn periodic(grid: &Grid, response: &dyn CoupledResponse) -> Arc<Self> {
         let q = |bin: usize, axis: usize| angular_frequency(bin, grid.shape[axis], grid.pitch[axis]);
         let kernel = Arc::new(MixedTensorKernel::new(TensorKernel::from_transforms(grid.shape, |kx, ky| {
-            in_order(harmonic_displacements(q(kx, 0), q(ky, 1), compliances))
+            in_order(response.harmonic_displacements(q(kx, 0), q(ky, 1)))
         })));
         let mut convolution = MixedTensorConvolution::new(Arc::clone(&kernel), grid.shape);
         let mut unit = grid.zeros();

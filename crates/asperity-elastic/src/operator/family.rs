@@ -76,15 +76,20 @@ impl Operators {
     pub fn coupled_on(&self, shape: [usize; 2]) -> Box<dyn CoupledOperator> {
         let grid = self.grid(shape);
         let padded = self.boundary.padded(shape);
-        let compliances = self.response.compliances().expect("a response to shear");
+        let response = self.response.coupled().expect("a response to shear");
         let kernel = self.coupled.get(padded, || match &self.normal {
             Normal::Free(_) => {
-                let line = self.boundary.line(&grid, self.boundary.datum(&self.largest));
-                CoupledKernel::free(padded, grid.pitch, compliances, line.as_ref())
+                let influence = match self.boundary.line(&grid, self.boundary.datum(&self.largest)) {
+                    None => response.coupled_influence(grid.pitch),
+                    Some(line) => response
+                        .coupled_line_influence(&line, grid.pitch)
+                        .expect("a response that knows lines"),
+                };
+                CoupledKernel::free(padded, grid.pitch, influence.as_ref())
             }
-            Normal::Periodic(_) => CoupledKernel::periodic(&grid, compliances),
+            Normal::Periodic(_) => CoupledKernel::periodic(&grid, response),
         });
-        Box::new(kernel.operator(grid, compliances.couples(), self.on(shape)))
+        Box::new(kernel.operator(grid, response.couples(), self.on(shape)))
     }
 
     /// Returns the largest displacement under a uniform unit pressure on `shape` cells, m/Pa.

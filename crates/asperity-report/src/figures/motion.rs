@@ -311,7 +311,7 @@ fn pressures(
 fn section(results: &Results, pressure: &StoredArray, step: &StepRecord) -> Result<Option<Profile>> {
     let case = results.case()?;
     let bodies = response(&case.lower.material, &case.upper.material)?;
-    let couples = bodies.compliances().is_some_and(|compliances| compliances.couples());
+    let couples = bodies.coupled().is_some_and(|coupled| coupled.couples());
     let yields = case.lower.hardness.yields() || case.upper.hardness.yields();
     let step_by_step =
         yields && case.motion.is_some_and(|motion| motion.plastic_update == PlasticUpdate::Step);

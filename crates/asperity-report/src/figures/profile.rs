@@ -149,14 +149,14 @@ pub(super) fn most_loaded(pressure: &Field, touching: &Field) -> Option<[usize; 
 fn lower_displacement(facing: &OverlapFields, iy: usize, case: &Case) -> Result<Array1<f64>> {
     let (lower, upper) = (&case.lower.material, &case.upper.material);
     let rigid = Material::elastic(f64::INFINITY, 0.0)?;
-    if lower.young.is_infinite() && lower.coating.is_none() {
+    if lower.young.is_infinite() && !lower.is_layered() {
         return Ok(Array1::zeros(facing.pressure.nrows()));
     }
-    if lower.coating.is_none() && upper.coating.is_none() {
+    if !lower.is_layered() && !upper.is_layered() {
         let share = Compliances::new(lower, &rigid)?.normal / Compliances::new(lower, upper)?.normal;
         return Ok(share * &facing.displacement.column(iy));
     }
-    // Of a coated pair the share depends on the wavelength.
+    // Of a pair with layers the share depends on the wavelength.
     let grid = Grid { shape: facing.pressure.dim().into(), pitch: facing.pitch };
     let mut lower_displacement = grid.zeros();
     Operators::new(grid, response(lower, &rigid)?, case.contact.boundary)

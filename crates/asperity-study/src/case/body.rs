@@ -67,7 +67,7 @@ pub(super) struct BodyKeys {
     /// constants of heat and current where the case uses them; keys given beside it replace them.
     #[key(choice, absent = "none", example = "\"steel\"")]
     material: Option<&'static NamedMaterial>,
-    /// Young's modulus; for a coated body, the modulus below the coating; at most one uncoated body may be
+    /// Young's modulus; for a body with layers, the modulus below them; at most one body without layers may be
     /// rigid.
     #[key(
         quantity = Pressure,
@@ -77,7 +77,7 @@ pub(super) struct BodyKeys {
         exists = exists::YOUNG
     )]
     young: Option<Pascal>,
-    /// Poisson's ratio; for a coated body, the ratio below the coating.
+    /// Poisson's ratio; for a body with layers, the ratio below them.
     #[key(
         number = "a number",
         range = Between { least: 0.0, most: 0.5, open: [false, false] },
@@ -99,6 +99,13 @@ pub(super) struct BodyKeys {
     /// Elastic surface layer, see [below](#lowercoating-and-uppercoating).
     #[key(table, absent = "none")]
     coating: Option<Coating>,
+    /// Several elastic layers in place of a `coating`, from the surface down, see
+    /// [below](#lowercoating-and-uppercoating).
+    #[key(tables = Coating::read, default = Vec::new(), absent = "none")]
+    layers: Vec<Coating>,
+    /// The body below the layers; a rigid one takes neither `young` nor `poisson`.
+    #[key(choice, default = Base::HalfSpace, example = "\"rigid\"")]
+    base: Base,
     /// Its surface.
     #[key(table)]
     topography: TopographySpec,
@@ -153,6 +160,17 @@ pub(super) struct UpperKeys {
     mount: Option<Mount>,
 }
 
+/// The body below the layers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Base {
+    /// An elastic half-space.
+    HalfSpace,
+    /// A rigid body, whose constants have no meaning.
+    Rigid,
+}
+
+choice!(Base: "half-space" => HalfSpace, "rigid" => Rigid);
+
 /// Conversion of the heights of a body to those of the case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mount {
@@ -190,8 +208,27 @@ impl BodyKeys {
     /// named material. Files are relative to the `folder` of the case.
     pub(super) fn body(&self, source: &dyn table::Source, folder: &Path, used: Used) -> Result<Body> {
         let named = self.material;
-        let young = elastic_constant(source, "young", self.young, named.map(|named| named.young))?;
-        let poisson = elastic_constant(source, "poisson", self.poisson, named.map(|named| named.poisson))?;
+        let [young, poisson] = match self.base {
+            Base::HalfSpace => [
+                elastic_constant(source, "young", self.young, named.map(|named| named.young))?,
+                elastic_constant(source, "poisson", self.poisson, named.map(|named| named.poisson))?,
+            ],
+            Base::Rigid => [Pascal::INFINITY, 0.0],
+        };
+        refuse(
+            source,
+            ["young", "poisson"],
+            self.base == Base::Rigid,
+            "a rigid base has no '{key}'",
+            "leave it out",
+        )?;
+        refuse(
+            source,
+            ["layers"],
+            self.coating.is_some(),
+            "a body has a `coating` or `layers`",
+            "write the coating as the first of the layers",
+        )?;
         // A body that flows below its surface has no hardness.
         let of_material = named.filter(|_| self.plasticity.is_none()).and_then(|named| named.hardness);
         let hardness = match &self.hardness {
@@ -211,7 +248,8 @@ impl BodyKeys {
             L::read(table.as_ref())?.on(one_hardness, table.as_ref())?.give(&mut laws);
         });
         // Checked above, key by key, so this cannot fail.
-        let material = Material { coating: self.coating, ..Material::elastic(young, poisson)? };
+        let layers = self.coating.map_or_else(|| self.layers.clone(), |coating| vec![coating]);
+        let material = Material::elastic(young, poisson)?.layered(layers);
         let thermal = self.thermal(source, used)?;
         let conducts = named.filter(|_| used.conduction);
         let conductivity = match thermal {
@@ -281,7 +319,7 @@ impl Body {
     /// Returns the constants of the body.
     pub(super) fn constants(&self) -> BodyConstants {
         BodyConstants {
-            material: self.material,
+            material: self.material.clone(),
             conductivity: self.thermal.map(|thermal| thermal.conductivity).or(self.conductivity),
             resistivity: self.resistivity,
             properties: self.properties.clone(),
@@ -305,6 +343,18 @@ fn elastic_constant(
     })
 }
 
+/// Returns an error at the first of the `keys` that is given, if `is_meaningless`. The message has the key in place of `{key}`.
+fn refuse<const N: usize>(
+    source: &dyn table::Source,
+    keys: [&str; N],
+    is_meaningless: bool,
+    message: &str,
+    hint: &str,
+) -> Result<()> {
+    let given = keys.into_iter().filter(|_| is_meaningless).find_map(|key| Some((key, source.value(key)?)));
+    given.map_or(Ok(()), |(key, value)| Err(value.error(&message.replace("{key}", key), Some(hint))))
+}
+
 /// Returns the declaration of a key of a body.
 fn key(name: &str) -> &'static Key {
     BodyKeys::KEYS.iter().find(|key| key.name == name).expect("a body has this key")
@@ -312,13 +362,21 @@ fn key(name: &str) -> &'static Key {
 
 fn elastic<S: Serializer>(material: &Material, serializer: S) -> std::result::Result<S::Ok, S::Error> {
     #[derive(Serialize)]
-    struct Keys {
+    struct Keys<'a> {
         #[serde(serialize_with = "or_inf")]
         young: Pascal,
         poisson: f64,
         #[serde(skip_serializing_if = "Option::is_none")]
-        coating: Option<Coating>,
+        coating: Option<&'a Coating>,
+        #[serde(skip_serializing_if = "<[Coating]>::is_empty")]
+        layers: &'a [Coating],
     }
-    let Material { young, poisson, coating, .. } = *material;
-    Keys { young, poisson, coating }.serialize(serializer)
+    let Material { young, poisson, ref layers, .. } = *material;
+    // A single layer is a coating.
+    let (coating, layers) = if let [coating] = layers.as_slice() {
+        (Some(coating), [].as_slice())
+    } else {
+        (None, layers.as_slice())
+    };
+    Keys { young, poisson, coating, layers }.serialize(serializer)
 }

@@ -55,7 +55,11 @@ fn table(path: &str) -> Value {
     }
     let mut schema = json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false });
     if BODIES.contains(&path) {
-        schema["anyOf"] = json!([{ "required": ["material"] }, { "required": ["young", "poisson"] }]);
+        schema["anyOf"] = json!([
+            { "required": ["material"] },
+            { "required": ["young", "poisson"] },
+            { "required": ["base"], "properties": { "base": { "const": "rigid" } } }
+        ]);
     }
     schema
 }

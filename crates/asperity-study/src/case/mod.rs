@@ -123,9 +123,9 @@ impl Case {
         if !self.interface.is_empty() && !self.history.is_empty() { self.output.pressure_every } else { 0 }
     }
 
-    /// Whether a body is coated.
+    /// Whether a body has layers.
     pub fn is_coated(&self) -> bool {
-        [&self.lower, &self.upper].into_iter().any(|body| body.material.coating.is_some())
+        [&self.lower, &self.upper].into_iter().any(|body| body.material.is_layered())
     }
 
     /// Whether a body is viscoelastic.

@@ -10,6 +10,7 @@ use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
 use asperity_base::units::Second;
 use asperity_contact::each;
+use asperity_contact::kernel::response;
 use asperity_contact::material::Compliances;
 use asperity_contact::motion::{LoadControl, PlasticUpdate, Stage, memory_together};
 use asperity_contact::operator::{FreeFft, Operator};
@@ -289,7 +290,8 @@ impl<'a> Sizes<'a> {
 
     /// Number of overlap columns at the solved positions.
     fn solved(&self) -> &[usize] {
-        let couples = self.compliances().is_some_and(|compliances| compliances.coupling != 0.0);
+        let response = response(&self.case.lower.material, &self.case.upper.material);
+        let couples = response.is_ok_and(|pair| pair.coupled().is_some_and(|coupled| coupled.couples()));
         let (yields, all) = (self.case.yields(), self.overlaps.len());
         let follows = self.case.interface.follows_path();
         let motion = self.case.motion(1.0).filter(|_| !self.case.follows_itself());

@@ -450,16 +450,19 @@ fn fast(case: &Case, pitch: Metre) -> Option<String> {
     })
 }
 
-/// Warns of a coating that the cells do not resolve.
+/// Warns of layers that the cells do not resolve, together.
 fn thin(name: &str, case: &Case, pitch: [Metre; 2]) -> Option<String> {
     let body = if name == "lower" { &case.lower } else { &case.upper };
-    let thickness = body.material.coating?.thickness;
+    let layers = &body.material.layers;
+    let thickness = layers.iter().map(|layer| layer.thickness).sum::<Metre>();
     let cell = pitch[0].max(pitch[1]);
     let length = |value| units::format(value, Dimension::Length);
-    (thickness < cell).then(|| {
+    let (what, is, does) =
+        if layers.len() > 1 { ("layers", "are", "they do") } else { ("coating", "is", "it does") };
+    (!layers.is_empty() && thickness < cell).then(|| {
         format!(
-            "the coating of the {name} body is thinner, {}, than a cell, {}: what it does to the mean displacement of a cell \
-             is right, how the pressure varies over its thickness is not seen; take a smaller `pitch` for that",
+            "the {what} of the {name} body {is} thinner, {}, than a cell, {}: what {does} to the mean displacement of a cell \
+             is right, how the pressure varies over the thickness is not seen; take a smaller `pitch` for that",
             length(thickness),
             length(cell)
         )

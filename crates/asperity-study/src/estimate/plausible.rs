@@ -138,7 +138,7 @@ fn soft(case: &Case, estimate: &Estimate) -> Option<String> {
 fn hard((name, body): (&str, &Body)) -> Option<String> {
     let Hardness::Uniform(hardness) = body.hardness else { return None };
     let bound = HARD * body.material.young / (1.0 - body.material.poisson.powi(2));
-    let is_hard = hardness.is_finite() && hardness > bound && body.material.coating.is_none();
+    let is_hard = hardness.is_finite() && hardness > bound && !body.material.is_layered();
     let [hardness, bound] = [hardness, bound].map(|value| units::format(value, Dimension::Pressure));
     is_hard.then(|| {
         format!(

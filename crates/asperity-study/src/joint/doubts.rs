@@ -116,7 +116,6 @@ impl Law {
 /// Returns what the law of a joint of this case leaves out.
 pub(super) fn left_out(case: &Case, yields: bool) -> Vec<String> {
     let attract = !case.interface.is_empty();
-    let coated = [&case.lower, &case.upper].iter().any(|body| body.material.coating.is_some());
     let sentences = [
         (
             yields,
@@ -126,7 +125,7 @@ pub(super) fn left_out(case: &Case, yields: bool) -> Vec<String> {
             attract,
             "the law begins above a pressure of 0: attraction beyond is not in it, and theories know no attraction",
         ),
-        (coated, "theories take the bodies without their coatings"),
+        (case.is_coated(), "theories take the bodies without their layers"),
     ];
     sentences.into_iter().filter(|(holds, _)| *holds).map(|(_, sentence)| sentence.to_owned()).collect()
 }

@@ -24,15 +24,34 @@ use crate::support::{parsed, parsed_in};
 #[test]
 fn a_coating_is_read_and_written_back_and_nothing_is_written_where_there_is_none() {
     let case = load("coated");
-    let [lower, upper] = [case.lower.material.coating, case.upper.material.coating];
-    assert_eq!(lower, Some(Coating::new(2e-6, 300e9, 0.25).unwrap()));
-    assert_eq!(upper, Some(Coating::new(0.5e-6, 3e9, 0.5).unwrap()));
+    let [lower, upper] = [&case.lower.material.layers, &case.upper.material.layers];
+    assert_eq!(lower.as_slice(), [Coating::new(2e-6, 300e9, 0.25).unwrap()]);
+    assert_eq!(upper.as_slice(), [Coating::new(0.5e-6, 3e9, 0.5).unwrap()]);
     assert!(case.is_coated() && case.lower.hardness == Hardness::Uniform(6e9));
     let written = serde_json::to_value(&case).unwrap();
     assert_eq!(written["lower"]["coating"]["thickness"], 2e-6);
     let plain = load("smallest");
     assert!(!plain.is_coated());
     assert!(serde_json::to_value(&plain).unwrap()["lower"].get("coating").is_none());
+}
+
+#[test]
+fn layers_on_a_rigid_base_are_read_from_the_surface_down_and_written_back() {
+    let case = load("layered");
+    let lower = &case.lower.material;
+    let expected = [[1e-6, 400e9, 0.2], [2e-7, 100e9, 0.3], [5e-6, 3e9, 0.5]];
+    assert_eq!(lower.layers, expected.map(|[t, young, poisson]| Coating::new(t, young, poisson).unwrap()));
+    assert!(lower.young.is_infinite() && case.is_coated());
+    let written = serde_json::to_value(&case).unwrap();
+    assert_eq!(written["lower"]["layers"][1]["thickness"], 2e-7);
+    assert!(written["lower"].get("coating").is_none() && written["upper"].get("layers").is_none());
+    let rigid = parsed(
+        "contact = { load = 1.0 }\n\
+         lower = { base = \"rigid\", layers = [{ thickness = 1e-6, young = 400e9, poisson = 0.2 }], topography = { form = \"flat\", shape = [64, 64], pitch = 1e-6 } }\n\
+         upper = { material = \"steel\", topography = { form = \"sphere\", radius = 1e-3 } }",
+    );
+    assert!(rigid.lower.material.young.is_infinite());
+    assert_eq!(serde_json::to_value(&rigid).unwrap()["lower"]["coating"]["thickness"], 1e-6);
 }
 
 #[test]

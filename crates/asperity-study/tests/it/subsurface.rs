@@ -5,7 +5,7 @@ use std::path::Path;
 use asperity_contact::reference::{HertzSphere, SlidingSphere};
 use asperity_contact::stress::{Component, Stress};
 use asperity_study::io::fields::Attribute;
-use asperity_study::{Existing, Results, Summary, pressure_name};
+use asperity_study::{Case, Existing, Results, SubsurfaceRecord, Summary, pressure_name};
 
 use crate::support::{most, parsed, run_to, written};
 
@@ -216,4 +216,58 @@ motion = { strategy = "shift", speed_lower = "2 m/s", speed_upper = "1 m/s" }
         beyond += usize::from(record.position[0] < section.origin[0] && last > 24e-6);
     }
     assert!(beyond > 0);
+}
+
+/// A ball pushed along a body with a hard layer over a soft one.
+fn pushed_over_layers(boundary: &str, layers: &str) -> Case {
+    let text = format!(
+        "contact = {{ load = 0.2, boundary = \"{boundary}\", tolerance = 1e-8 }}\n\
+         friction = {{ coefficient = 0.3, force = 0.02 }}\n\
+         subsurface = {{ to = 8e-6, layers = 8, columns = [[20e-6, 20e-6]] }}\n\
+         upper = {{ young = \"210 GPa\", poisson = 0.3, topography = {{ form = \"sphere\", radius = 1e-3 }} }}\n\
+         [lower]\nyoung = \"100 GPa\"\npoisson = 0.25\n\
+         topography = {{ form = \"flat\", shape = [40, 40], pitch = 1e-6 }}\n{layers}"
+    );
+    parsed(&text)
+}
+
+#[test]
+fn stress_in_layers_is_that_of_the_body_if_they_are_alike_and_their_faces_are_in_the_summary() {
+    const ALIKE: &str = "[[lower.layers]]\nthickness = 1.5e-6\nyoung = \"100 GPa\"\npoisson = 0.25\n\
+                         [[lower.layers]]\nthickness = 2e-6\nyoung = \"100 GPa\"\npoisson = 0.25\n";
+    for boundary in ["free", "periodic"] {
+        let folder = tempfile::TempDir::new().unwrap();
+        let [(plain, one), (layered, other)] = [("plain", ""), ("alike", ALIKE)].map(|(name, layers)| {
+            run_to(&pushed_over_layers(boundary, layers), &folder.path().join(name), Existing::Keep)
+        });
+        let (plain, found) = (&plain.subsurface[0], &layered.subsurface[0]);
+        let size = plain.max_von_mises;
+        // The faces of the layers are planes besides.
+        assert!(found.max_von_mises > size * (1.0 - 1e-5), "{boundary}: {found:?} and {plain:?}");
+        assert!(plain.max_surface_tension.is_none() && found.max_surface_tension.unwrap() > 0.0);
+        assert!(
+            found.max_interface_shear.unwrap() > 0.1 * size && found.max_interface_tension.unwrap() >= 0.0
+        );
+        for component in ["xx", "zz", "xz", "yy"] {
+            let column = |results: &Results| {
+                let name = format!("column_01_{component}");
+                results.subsurface_fields(None).unwrap().read(&name).unwrap().values
+            };
+            for (one, other) in column(&one).iter().zip(&column(&other)) {
+                assert!((one - other).abs() < 1e-5 * size, "{boundary}, {component}: {one:e} and {other:e}");
+            }
+        }
+        assert_eq!(SubsurfaceRecord::read(&folder.path().join("alike/subsurface.h5")).unwrap(), *found);
+    }
+}
+
+#[test]
+fn a_stiff_layer_on_a_soft_one_bends_and_bears_the_largest_stress_at_its_lower_face() {
+    const STIFF: &str = "[[lower.layers]]\nthickness = 1.5e-6\nyoung = \"500 GPa\"\npoisson = 0.2\n\
+                         [[lower.layers]]\nthickness = 4e-6\nyoung = \"20 GPa\"\npoisson = 0.35\n";
+    let folder = tempfile::TempDir::new().unwrap();
+    let (summary, _) = run_to(&pushed_over_layers("free", STIFF), folder.path(), Existing::Keep);
+    let found = &summary.subsurface[0];
+    assert_eq!(found.position[2], 1.5e-6, "{found:?}");
+    assert!(found.max_surface_tension.unwrap() > 1e8, "{found:?}");
 }

@@ -49,7 +49,7 @@ impl Volume {
     /// ignored.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a coated body, or for a boundary that is periodic along one axis alone,
+    /// [`Error::Unsupported`] for a body with layers, or for a boundary that is periodic along one axis alone,
     /// [`Error::OutOfRange`] for a rigid body.
     pub fn new(grid: Grid, layers: Layers, boundary: Boundary, material: &Material) -> Result<Self> {
         if boundary.repeats(0) != boundary.repeats(1) {
@@ -57,8 +57,8 @@ impl Volume {
                 "elasto-plastic bodies do not support a boundary that is periodic along one axis only",
             ));
         }
-        if material.coating.is_some() {
-            return Err(Error::Unsupported("a coated body cannot be elasto-plastic yet"));
+        if material.is_layered() {
+            return Err(Error::Unsupported("a body with layers cannot be elasto-plastic yet"));
         }
         let Material { young, poisson, .. } = *material;
         check_in(
@@ -77,7 +77,7 @@ impl Volume {
             grid,
             layers,
             boundary,
-            material: *material,
+            material: material.clone(),
             period,
             influence: Default::default(),
             waves,

@@ -1,24 +1,24 @@
 //! Conductivities of the bodies, and the response of a pair to a flux.
 
 use crate::error::{Error, Result, check};
-use crate::kernel::{Influence, Layering, Response, SharedResponse};
+use crate::kernel::{Influence, Layering, Response, SharedResponse, potential_compliance};
 use crate::units::Metre;
 use crate::with::BodyConstants;
 use crate::with::conductance::Kind;
 
-/// A body that conducts: a half-space, with or without a coating.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A body that conducts: a half-space, with or without layers.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Conductor {
     /// Conductivity κ > 0 of the half-space, W/(m K) or S/m; infinite for a body without a resistance of its
     /// own.
     pub conductivity: f64,
-    /// The coating, if any.
-    pub coating: Option<ConductingCoating>,
+    /// The layers, from the surface down.
+    pub layers: Vec<ConductingLayer>,
 }
 
 /// A layer of uniform thickness on a body, with a conductivity of its own.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ConductingCoating {
+pub struct ConductingLayer {
     /// Thickness t > 0, m, finite.
     pub thickness: Metre,
     /// Conductivity κ > 0, W/(m K) or S/m, finite.
@@ -32,26 +32,34 @@ impl Conductor {
     /// [`Error::OutOfRange`] for another number.
     pub fn new(conductivity: f64) -> Result<Self> {
         check("conductivity", conductivity, conductivity > 0.0, "a conductivity above 0, or inf")?;
-        Ok(Self { conductivity, coating: None })
+        Ok(Self { conductivity, layers: Vec::new() })
     }
 
-    /// Adds a coating of this thickness, m, and conductivity, W/(m K) or S/m.
+    /// Adds a layer of this thickness, m, and conductivity, W/(m K) or S/m, on the surface.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] unless both are above 0 and finite.
-    pub fn coated(self, thickness: Metre, conductivity: f64) -> Result<Self> {
+    pub fn coated(mut self, thickness: Metre, conductivity: f64) -> Result<Self> {
         let good = |value: f64| value > 0.0 && value.is_finite();
         check("thickness", thickness, good(thickness), "a finite thickness above 0")?;
         let expected = "a finite conductivity above 0";
-        check("conductivity of the coating", conductivity, good(conductivity), expected)?;
-        Ok(Self { coating: Some(ConductingCoating { thickness, conductivity }), ..self })
+        check("conductivity of the layer", conductivity, good(conductivity), expected)?;
+        self.layers.insert(0, ConductingLayer { thickness, conductivity });
+        Ok(self)
     }
 
     /// The response of this body to a flux from one without resistance.
     fn response(&self) -> SharedResponse {
-        match self.coating {
+        match self.layers.first() {
             None => (2.0 * self.conductivity).into(),
-            Some(coating) => CoatedConductor::new(self.conductivity, coating).into(),
+            Some(surface) => {
+                let layering = Layering {
+                    short: 0.5 / surface.conductivity,
+                    long: 0.5 / self.conductivity,
+                    depth: 2.0 * surface.thickness,
+                };
+                LayeredConductor { body: self.clone(), layering }.into()
+            }
         }
     }
 }
@@ -64,18 +72,20 @@ fn conductivity(body: &BodyConstants, kind: Kind) -> Option<f64> {
     }
 }
 
-/// Returns how a body conducts, with its coating; `None` if a conductivity is unknown.
+/// Returns how a body conducts, with its layers; `None` if a conductivity is unknown.
 pub(super) fn conductor(body: &BodyConstants, kind: Kind) -> Option<Result<Conductor>> {
-    let base = Conductor::new(conductivity(body, kind)?);
-    let Some(coating) = body.material.coating else { return Some(base) };
-    let conductivity = match kind {
-        Kind::Thermal => coating.conductivity?,
-        Kind::Electrical => coating.resistivity?.recip(),
-    };
-    Some(base.and_then(|base| base.coated(coating.thickness, conductivity)))
+    let mut conductor = Conductor::new(conductivity(body, kind)?);
+    for layer in body.material.layers.iter().rev() {
+        let conductivity = match kind {
+            Kind::Thermal => layer.conductivity?,
+            Kind::Electrical => layer.resistivity?.recip(),
+        };
+        conductor = conductor.and_then(|body| body.coated(layer.thickness, conductivity));
+    }
+    Some(conductor)
 }
 
-/// Composite conductivity of bodies without their coatings, W/(m K) or S/m; `None` if one is unknown.
+/// Composite conductivity of bodies without their layers, W/(m K) or S/m; `None` if one is unknown.
 pub(super) fn composite(bodies: &[BodyConstants; 2], kind: Kind) -> Option<Result<f64>> {
     let [lower, upper] = bodies.each_ref().map(|body| conductivity(body, kind));
     Some(composite_conductivity(lower?, upper?))
@@ -104,61 +114,41 @@ pub fn composite_conductivity(lower: f64, upper: f64) -> Result<f64> {
 }
 
 /// Returns the response of a pair of bodies to a flux: the drop between far fields per unit flux, K m²/W or V
-/// m²/A, for the [operators](crate::operator::Operators) of any boundary; with a coating not for one that is
+/// m²/A, for the [operators](crate::operator::Operators) of any boundary; with layers not for one that is
 /// periodic along one axis alone.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for conductivities without meaning, and if neither body has a resistance.
 pub fn response(lower: &Conductor, upper: &Conductor) -> Result<SharedResponse> {
     let bodies = [lower, upper];
-    if bodies.iter().all(|body| body.coating.is_none()) {
+    if bodies.iter().all(|body| body.layers.is_empty()) {
         return Ok(composite_conductivity(lower.conductivity, upper.conductivity)?.into());
     }
     for body in bodies {
-        let checked = Conductor::new(body.conductivity)?;
-        if let Some(ConductingCoating { thickness, conductivity }) = body.coating {
-            checked.coated(thickness, conductivity)?;
+        let mut checked = Conductor::new(body.conductivity)?;
+        for ConductingLayer { thickness, conductivity } in &body.layers {
+            checked = checked.coated(*thickness, *conductivity)?;
         }
     }
     Ok(bodies.map(Conductor::response).into())
 }
 
-/// A half-space of conductivity κ₂ under a layer of conductivity κ₁ and thickness t.
-///
-/// ```text
-/// û/q̂ = (1 + Λθ)/(κ₁q (1 − Λθ))        Λ = (κ₁ − κ₂)/(κ₁ + κ₂),   θ = e^(−2qt)
-/// ```
-///
-/// The temperature in the layer is A e^(−qz) + B e^(qz), continuous with its flux κ ∂T/∂z at z = t.
-/// It is the field of the flux itself and of images of the strengths 2Λⁿ at the depths 2nt.
-#[derive(Debug, Clone, Copy)]
-struct CoatedConductor {
+/// A conductor with layers.
+#[derive(Debug, Clone)]
+struct LayeredConductor {
+    body: Conductor,
     layering: Layering,
-    /// κ₁.
-    layer: f64,
-    /// Λ, and 1 + Λ and 1 − Λ without cancellation.
-    contrast: [f64; 3],
 }
 
-impl CoatedConductor {
-    fn new(base: f64, coating: ConductingCoating) -> Self {
-        let ConductingCoating { thickness, conductivity: layer } = coating;
-        // The ratio is 0 for a base without resistance.
-        let ratio = layer / base;
-        let contrast = [(ratio - 1.0) / (ratio + 1.0), 2.0 * ratio / (1.0 + ratio), 2.0 / (1.0 + ratio)];
-        let layering = Layering { short: 0.5 / layer, long: 0.5 / base, depth: 2.0 * thickness };
-        Self { layering, layer, contrast }
-    }
-
+impl LayeredConductor {
     /// û/q̂ of the wavenumber q > 0, to rounding.
     fn harmonic(&self, q: f64) -> f64 {
-        let [contrast, plus, minus] = self.contrast;
-        let rest = contrast * (-q * self.layering.depth).exp_m1();
-        (plus + rest) / (minus - rest) / (self.layer * q)
+        let layers = self.body.layers.iter().rev().map(|layer| (layer.thickness, layer.conductivity));
+        potential_compliance(layers, self.body.conductivity, q)
     }
 }
 
-impl Response for CoatedConductor {
+impl Response for LayeredConductor {
     fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64 {
         let q = qx.hypot(qy);
         if q == 0.0 { 0.0 } else { self.harmonic(q) }

@@ -55,7 +55,7 @@ mod table;
 mod views;
 
 pub use barber::Bracket;
-pub use bodies::{ConductingCoating, Conductor, composite_conductivity, response};
+pub use bodies::{ConductingLayer, Conductor, composite_conductivity, response};
 use bodies::{composite, conductor};
 pub use correlations::{JointRoughness, MAX_CORRELATED_FRACTION};
 pub use doubts::doubts;

@@ -17,7 +17,7 @@ use crate::with::{Given, NamedField, Observer, Place};
 pub struct ConductanceObserver {
     joint: Joint,
     operators: Operators,
-    /// Composite conductivity of the bodies without their coatings.
+    /// Composite conductivity of the bodies without their layers.
     composite: f64,
     params: Params,
     /// Roughness of the undeformed gap of the bodies at full overlap, and what the correlations need besides.
@@ -52,7 +52,7 @@ impl ConductanceObserver {
             is_curved: boundary != Boundary::PERIODIC && Paraboloid::fit(&flush, largest.pitch).is_some(),
             is_clean: joint.film.is_none()
                 && joint.gas.is_none()
-                && surroundings.bodies.iter().all(|body| body.material.coating.is_none()),
+                && surroundings.bodies.iter().all(|body| !body.material.is_layered()),
             full: Mutex::default(),
         })
     }

@@ -63,8 +63,8 @@ pub(super) const RULES: &[Rule<Joint>] = &[
     },
     Rule {
         this: "[conductance]",
-        with: "a coating without a conductivity of its own",
-        message: "[conductance] needs the conductivity of each coating",
+        with: "a layer without a conductivity of its own",
+        message: "[conductance] needs the conductivity of each layer",
         hint: "for example `conductivity = \"20 W/(m K)\"` in [lower.coating]; `resistivity` with kind = \"electrical\"",
         at: "conductance",
         example: &[COATED, HEAT, CONDUCTIVITIES[0], CONDUCTIVITIES[1]],

@@ -43,7 +43,7 @@ pub(super) const RULES: &[Rule<Fatigue>] = &[
             r#"lower.coating = { thickness = "2 um", young = "300 GPa", poisson = 0.25 }"#,
         ],
         broken: |_, surroundings| {
-            any(surroundings, |body| body.properties.fatigue.is_some() && body.material.coating.is_some())
+            any(surroundings, |body| body.properties.fatigue.is_some() && body.material.is_layered())
         },
     },
     Rule {

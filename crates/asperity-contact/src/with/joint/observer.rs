@@ -13,7 +13,7 @@ use crate::with::{Given, NamedField, Observer, Place};
 
 /// Computes the law of a joint under each load.
 pub struct JointObserver {
-    /// The tangential response; none of coated bodies, whose response to shear is unknown.
+    /// The tangential response; none of bodies whose response to shear is unknown.
     operator: Option<Mutex<Box<dyn CoupledOperator>>>,
     bounds: Bounds,
     modulus: Pascal,
@@ -26,7 +26,7 @@ impl JointObserver {
         let Given { pair, surroundings, params } = given;
         let grid = pair.lower_grid();
         let position = pair.at_rest();
-        let operator = pair.response().compliances().map(|_| {
+        let operator = pair.response().coupled().map(|_| {
             let operators = Operators::new(grid, pair.response().clone(), surroundings.boundary);
             Mutex::new(operators.coupled_on(grid.shape))
         });

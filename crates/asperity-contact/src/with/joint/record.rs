@@ -20,8 +20,7 @@ columns! {
         pub load: Newton,
         /// Mean pressure over the apparent area.
         pub mean_pressure: Pascal,
-        /// Tangential stiffness along x of the cells that bear elastically; unknown in full contact, where it is infinite,
-        /// and for coated bodies.
+        /// Tangential stiffness along x of the cells that bear elastically; unknown in full contact, where it is infinite.
         pub stiffness_x: Option<NewtonPerMetre>,
         /// Tangential stiffness along y.
         pub stiffness_y: Option<NewtonPerMetre>,

@@ -36,7 +36,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "`young = inf`",
         with: "`young = inf` of the other body",
         message: "both bodies are rigid",
-        hint: "give one of them a finite 'young' or a coating",
+        hint: "give one of them a finite 'young' or layers",
         at: "upper.young",
         example: &["lower.young = inf", "upper.young = inf"],
         broken: |tables| {

@@ -45,25 +45,28 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "a body's plasticity",
-        with: "its coating",
-        message: "a coated body cannot be elasto-plastic yet",
-        hint: "leave the coating or the plasticity out",
+        with: "its coating or layers",
+        message: "a body with layers cannot be elasto-plastic yet",
+        hint: "leave the layers or the plasticity out",
         at: "lower.plasticity",
         example: &[COATED, FLOWS, VOLUME],
-        broken: |tables| tables.of_body("plasticity", |body| body.material.coating.is_some()),
+        broken: |tables| tables.of_body("plasticity", |body| body.material.is_layered()),
     },
     Rule {
         this: "a body's plasticity",
-        with: "a coating of the other body",
-        message: "a coated body cannot meet an elasto-plastic body yet",
-        hint: "leave the coating or the plasticity out",
+        with: "a coating or layers of the other body",
+        message: "a body with layers cannot meet an elasto-plastic body yet",
+        hint: "leave the layers or the plasticity out",
         at: "upper.coating",
         example: &[
             FLOWS,
             r#"upper.coating = { thickness = "2 um", young = "300 GPa", poisson = 0.25 }"#,
             VOLUME,
         ],
-        broken: |tables| tables.of_body("coating", |_| true).filter(|_| tables.flows()),
+        broken: |tables| {
+            let layers = tables.of_body("coating", |_| true).or(tables.of_body("layers", |_| true));
+            layers.filter(|_| tables.flows())
+        },
     },
     Rule {
         this: "a body's plasticity",

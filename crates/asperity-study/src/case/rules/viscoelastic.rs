@@ -121,14 +121,14 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "[lower.viscoelastic], [upper.viscoelastic]",
-        with: "a hardness, a coating or `plasticity` of either body",
+        with: "a hardness, layers or `plasticity` of either body",
         message: "viscoelastic bodies do not support '{key}'",
         hint: "the contact is that of elastic and viscoelastic bodies; beside a `material` with a hardness give `hardness = inf`",
         at: "lower.hardness",
         example: &[RELAXES, STEADY, r#"lower.hardness = "3 GPa""#],
         broken: |tables| {
             tables.viscoelastic()?;
-            let keys = ["coating", "plasticity"];
+            let keys = ["coating", "layers", "plasticity"];
             ["lower", "upper"].iter().find_map(|body| {
                 let of = if *body == "lower" { &tables.case.lower } else { &tables.case.upper };
                 let hardness =
