@@ -141,9 +141,10 @@ impl Search {
                     return Err(Error::LoadNotReached { load: self.load, below, trials, approach });
                 }
                 // The slope of a jump, on which a bracket closes, is useless.
-                let (approach, slope) = match exhausted || at_limit {
-                    true => (approach, first.slope),
-                    false => (approach - (load / self.load).ln() / slope, slope),
+                let (approach, slope) = if exhausted || at_limit {
+                    (approach, first.slope)
+                } else {
+                    (approach - (load / self.load).ln() / slope, slope)
                 };
                 let guess = Guess { error, ..Guess::new(approach, slope) };
                 return Ok(AcceptedTrial { outcome, guess, trials });
