@@ -5,15 +5,15 @@
 //! concave, and lies below its tangents: hence each round lowers the energy, and the rounds converge to an
 //! equilibrium. Without positive influence between cells in the inverse of the operator, the gaps of all
 //! rounds change in one direction, and the equilibrium is the first one that bodies on their way reach.
-//! Rounds are slow near an instability. Newton's iteration then finds the equilibrium towards which they
-//! converge.
+//! Rounds are slow near an instability. Newton's iteration then leads on, in rounds that replace the bounds by
+//! the tangents of the tension. A round that may leave the way of the bodies is undone.
 
-mod forecast;
 mod law;
 mod newton;
 mod record;
 #[cfg(test)]
 mod tests;
+mod wave_stiffness;
 
 pub use law::{Adhesion, History, Potential, RESOLVED_CELLS};
 pub use record::{AdhesionPassRecord, AdhesionRecord};
@@ -32,16 +32,26 @@ use crate::solver::{
 use crate::units::{JoulePerSquareMetre, Metre, Newton, Pascal};
 use asperity_base::watch::check_stop;
 
-use forecast::Changes;
 use newton::NewtonIteration;
+use wave_stiffness::WaveStiffness;
 
 /// Tolerance of the contact of a round, as a fraction of the residual of the round before.
 const ROUND_TOLERANCE: f64 = 0.2;
 /// Largest and smallest tolerance of a round; the smallest is a fraction of the tolerance of the solution.
 const ROUND_TOLERANCES: [f64; 2] = [1e-2, 0.3];
-/// Number of rounds after an attempt of Newton's iteration that fails. It doubles with each failure, up to a
-/// limit.
-const ROUNDS_AFTER_FAILURE: [usize; 2] = [4, 32];
+/// Residual below which Newton's iteration is attempted. Above it the bodies are on a jump.
+const MAX_RESIDUAL: f64 = 0.1;
+/// Number of rounds of lagged bounds after an attempt of Newton's iteration that fails. It doubles with each
+/// failure, up to a limit.
+const ROUNDS_AFTER_FAILURE: [usize; 2] = [2, 16];
+/// Factor of the share of the softening after a round that has no stable solution.
+const SHARE_AFTER_FAILURE: f64 = 0.7;
+/// Least share of the softening. Rounds of lagged bounds are cheaper than rounds with less.
+const LEAST_SHARE: f64 = 0.6;
+/// Factor of the part of the softening that is left out, after a round that has a solution.
+const LEFT_AFTER_SUCCESS: f64 = 0.7;
+/// Part of the softening that is not worth leaving out.
+const LEAST_LEFT: f64 = 0.03;
 
 /// Solves the frictionless contact of a pair of bodies that attract each other: with the tension σ(g) of the
 /// `adhesion`,
@@ -81,7 +91,7 @@ pub fn solve_adhesive(
 
 impl Adhesion {
     /// Cost of a contact with Tabor's parameter from 0.1 to 1, as measured (docs/performance.md). The memory
-    /// is that of the directions of a step of Newton's iteration, usually 25 or less and 60 at most, and of
+    /// is that of the directions of a step of Newton's iteration, usually 10 or less and 20 at most, and of
     /// the fields of two states.
     pub const COST: InterfaceCost = InterfaceCost { convolutions: 45.0, work: 3.5, memory: 40.0 };
 }
@@ -168,8 +178,8 @@ impl Problem<'_> {
         let mut start = last.map(|last| last.pressure.clone());
         let mut stats = Stats::default();
         let mut eta = 1.0;
-        let mut newton = Attempts::new();
-        let mut changes = Changes::new();
+        let mut attempts = Attempts::new();
+        let mut preconditioner = None;
         loop {
             check_stop(self.watch)?;
             if let (Control::Load(load), true) = (control, last.is_some() || stats.iterations > 0) {
@@ -178,9 +188,7 @@ impl Problem<'_> {
                     return Err(self.pull_off(operator, load, last));
                 }
             }
-            let [most, least] = ROUND_TOLERANCES;
-            let of_round =
-                Params { tolerance: (ROUND_TOLERANCE * eta).min(most).max(least * tolerance), ..*params };
+            let of_round = Params { tolerance: self.round_tolerance(eta), ..*params };
             let solution = solve_normal_watched(
                 operator,
                 initial_gap,
@@ -203,23 +211,30 @@ impl Problem<'_> {
             if stats.convolutions >= params.max_convolutions as f64 {
                 return Err(Error::NotConverged { iterations: stats.iterations, residual: eta, tolerance });
             }
-            let forecast = changes.after(&gap);
-            if let Some(forecast) = forecast.filter(|_| newton.is_due() && self.is_smooth()) {
-                let mut attempt = NewtonIteration::new(operator, self, influence, &solution);
-                let found = attempt.solve(operator, &forecast)?;
-                stats = stats.and(&attempt.stats);
-                newton.record(found.is_some());
-                if let Some((pressure, gap)) = found {
-                    bounds = self.bounds_at(&gap);
-                    start = Some(pressure);
-                    eta = tolerance;
-                    changes = Changes::new();
+            if attempts.is_due() && eta < MAX_RESIDUAL && self.is_smooth() {
+                let preconditioner = preconditioner.get_or_insert_with(|| WaveStiffness::new(operator));
+                let mut cells = 0..gap.len();
+                let change = |cell| bounds.lower().value(cell) - next.lower().value(cell);
+                let change = Field::from_shape_simple_fn(gap.raw_dim(), || cells.next().map_or(0.0, change));
+                let mut newton = NewtonIteration::new(self, preconditioner, influence, &solution, change);
+                let left = newton.solve(operator, &mut attempts)?;
+                stats = stats.and(&newton.stats);
+                if newton.rounds > 0 {
+                    eta = left;
+                    bounds = self.bounds_at(&newton.gap());
+                    start = Some(newton.state.pressure);
                     continue;
                 }
             }
             bounds = next;
             start = Some(solution.pressure);
         }
+    }
+
+    /// Returns the residual at which a round ends, from the residual before it.
+    fn round_tolerance(&self, eta: f64) -> f64 {
+        let [most, least] = ROUND_TOLERANCES;
+        (ROUND_TOLERANCE * eta).min(most).max(least * self.params.tolerance)
     }
 
     /// Returns the bounds of the pressures at a gap.
@@ -284,30 +299,47 @@ const STEP_GROWTH: f64 = 1.4;
 /// Factor of the step when the load rises.
 const STEP_REDUCTION: f64 = 0.4;
 
-/// When to attempt Newton's iteration.
+/// When to attempt rounds of Newton's iteration, and with which share of the softening.
 struct Attempts {
-    /// Rounds to wait.
+    /// Rounds of lagged bounds to wait.
     wait: usize,
     /// Rounds to wait after the next failure.
     next: usize,
+    /// Share of the softening.
+    share: f64,
 }
 
 impl Attempts {
     fn new() -> Self {
-        Self { wait: 0, next: ROUNDS_AFTER_FAILURE[0] }
+        let [few, _] = ROUNDS_AFTER_FAILURE;
+        Self { wait: 1, next: few, share: 1.0 }
     }
 
-    /// Counts a round. Returns whether an attempt is due.
+    /// Counts a round of lagged bounds. Returns whether an attempt is due.
     fn is_due(&mut self) -> bool {
         let due = self.wait == 0;
         self.wait = self.wait.saturating_sub(1);
         due
     }
 
-    fn record(&mut self, succeeded: bool) {
-        if !succeeded {
-            self.wait = self.next;
-            self.next = (2 * self.next).min(ROUNDS_AFTER_FAILURE[1]);
+    /// Records a round of Newton's iteration that has a solution.
+    fn succeed(&mut self) {
+        [self.next, _] = ROUNDS_AFTER_FAILURE;
+        let left = LEFT_AFTER_SUCCESS * (1.0 - self.share);
+        self.share = if left < LEAST_LEFT { 1.0 } else { 1.0 - left };
+    }
+
+    /// Records a round without a stable solution. Returns whether a smaller share of the softening is to be
+    /// tried at once.
+    fn fail(&mut self) -> bool {
+        self.share *= SHARE_AFTER_FAILURE;
+        if self.share >= LEAST_SHARE {
+            return true;
         }
+        self.share = LEAST_SHARE;
+        self.wait = self.next;
+        let [_, most] = ROUNDS_AFTER_FAILURE;
+        self.next = (2 * self.next).min(most);
+        false
     }
 }

@@ -1,54 +1,118 @@
-//! Newton's iteration for contact and attraction at once.
+//! Rounds of Newton's iteration, whose tension falls with the gap.
 
-use std::mem;
+use ndarray::Zip;
 
 use crate::error::Result;
 use crate::grid::{Field, SingleField, flat, flat_mut};
 use crate::math::{Gmres, gmres, parallel};
 use crate::operator::Operator;
-use crate::solver::adhesion::Problem;
-use crate::solver::adhesion::forecast::Forecast;
-use crate::solver::preconditioner::Preconditioner;
+use crate::solver::adhesion::wave_stiffness::WaveStiffness;
+use crate::solver::adhesion::{Adhesion, Attempts, Problem};
 use crate::solver::sets::{Set, Sets};
-use crate::solver::{Control, Solution, Stats, residual};
+use crate::solver::{Bounds, Control, Params, Solution, Stats, residual};
 use crate::units::Metre;
 use asperity_base::watch::check_stop;
 
-/// Largest number of steps.
+/// Largest number of steps of a round.
 const MAX_STEPS: usize = 12;
-/// Largest number of products with the matrix of a step.
-const MAX_PRODUCTS: usize = 60;
-/// A step makes progress if its residual is below this fraction of the smallest so far.
-const PROGRESS: f64 = 0.7;
-/// Number of steps without progress after which the iteration is given up.
-const MAX_STAGNATIONS: usize = 4;
+/// A step whose equations take so many products with their matrix has no stable solution.
+const MAX_PRODUCTS: usize = 20;
+/// Reduction of the residual of its equations that a step aims at.
+const STEP_REDUCTION: f64 = 0.3;
+/// Largest sum of the differences σ − τ at the gaps that have risen, as a fraction of the sum of the changes of
+/// the tension in the round.
+const MAX_EXCESS: f64 = 0.05;
+/// Largest sum of the changes of the tension that have another sign than in the round before, as a fraction of
+/// all changes of that round. Without a stable equilibrium the equations of a step lead away from it.
+const MAX_OPPOSED: f64 = 0.05;
+/// Residual of a step above which a round has no solution.
+const MAX_STEP_RESIDUAL: f64 = 1e3;
 /// Residual at which the iteration ends, as a fraction of the tolerance of the solution.
 const LAST_RESIDUAL: f64 = 0.5;
-/// Residual from which on the matrix of a step is that of the equilibrium.
-const CLOSE: f64 = 1e-2;
-/// Largest reduction of the residual that a step aims at.
-const MAX_REDUCTION: f64 = 0.1;
 
-/// The unknowns of the iteration: pressure, displacement and approach. With the cells in contact C, capped
+/// Newton's iteration from the solution of a round of lagged bounds. Its rounds replace the constant tension of
+/// these bounds by a [`Tangent`]. The contact of a round is solved in steps. With the cells in contact C, capped
 /// cells U and open cells O, the equations of a step are
 ///
 /// ```text
-/// C: C dp − dδ = −g      U: dp = H − p      O: dp − D (C dp − dδ) = −(p + σ),   D = −dσ/dg
+/// C: C dp − dδ = −g      U: dp = H − p      O: dp − D (C dp − dδ) = −(p + τ),   D = −dτ/dg
 /// ```
 ///
-/// Under a load Σ dp = 0, and dδ is the mean over C of C dp + g.
+/// with the tension τ of the round. Under a load Σ dp = 0, and dδ is the mean over C of C dp + g.
 pub(super) struct NewtonIteration<'a> {
     problem: &'a Problem<'a>,
     influence: f64,
-    pressure: Field,
-    displacement: Field,
-    approach: Metre,
-    preconditioner: Preconditioner,
+    preconditioner: &'a mut WaveStiffness,
     sets: Sets,
-    /// Whether the last steps show no negative eigenvalue: a stable equilibrium has none.
-    is_stable: bool,
+    /// The state after the last round that has a solution.
+    pub(super) state: State,
+    /// Change of the tension in the last round.
+    change: Field,
+    /// Number of rounds that have a solution.
+    pub(super) rounds: usize,
     /// Cost so far.
     pub(super) stats: Stats,
+}
+
+/// Pressure, displacement and approach.
+#[derive(Clone)]
+pub(super) struct State {
+    pub(super) pressure: Field,
+    displacement: Field,
+    approach: Metre,
+}
+
+/// Tension of a round, which falls by a share θ of the softening from the tension at the gap g₀ of the round
+/// before:
+///
+/// ```text
+/// τ(g) = max(0, σ(g₀) + θ σ′(g₀) (g − g₀))
+/// ```
+///
+/// σ is convex. Below g₀ the tension τ is therefore nowhere above σ, and gaps that fall do not fall below those
+/// of the equilibrium that the bodies reach. Gaps that rise do not rise above those of the equilibrium if σ is
+/// nowhere above τ, which limits their rise for a given θ. With θ = 0 a round is one of lagged bounds, with
+/// θ = 1 one of Newton's iteration.
+struct Tangent {
+    gap: Field,
+    /// The tension σ(g₀).
+    tension: Field,
+    /// The softening −θ σ′(g₀).
+    softening: Field,
+}
+
+impl Tangent {
+    fn new(adhesion: &Adhesion, gap: Field, share: f64) -> Self {
+        let gap = gap.mapv_into(|g| g.max(0.0));
+        let tension = gap.mapv(|g| adhesion.tension(g));
+        let softening = gap.mapv(|g| share * adhesion.softening(g));
+        Self { gap, tension, softening }
+    }
+
+    /// Returns the tension τ at a gap.
+    fn tension(&self, gap: &Field) -> Field {
+        let Self { gap: before, tension, softening } = self;
+        Zip::from(gap)
+            .and(before)
+            .and(tension)
+            .and(softening)
+            .map_collect(|g, before, tension, softening| (tension + softening * (before - g)).max(0.0))
+    }
+
+    /// Whether a solution of the round with this gap is on the way of the bodies, after a `change` of σ in the
+    /// round before. Returns the change in this round if it is.
+    fn leads_on(&self, adhesion: &Adhesion, gap: &Field, change: &Field) -> Option<Field> {
+        let Self { gap: before, tension: tension_before, .. } = self;
+        let now = Zip::from(gap).and(tension_before).map_collect(|g, before| adhesion.tension(*g) - before);
+        let (mut excess, mut opposed) = (0.0, 0.0);
+        let tension = self.tension(gap);
+        Zip::indexed(gap).and(before).and(&tension).for_each(|cell, g, before, tau| {
+            excess += if g > before { (adhesion.tension(*g) - tau).max(0.0) } else { 0.0 };
+            opposed += if now[cell] * change[cell] < 0.0 { now[cell].abs() } else { 0.0 };
+        });
+        let [size, size_before] = [&now, change].map(|change| change.iter().map(|s| s.abs()).sum::<f64>());
+        (excess <= MAX_EXCESS * size && opposed <= MAX_OPPOSED * size_before).then_some(now)
+    }
 }
 
 /// Linear equations of a step, cell by cell.
@@ -61,101 +125,114 @@ struct Step {
 }
 
 impl<'a> NewtonIteration<'a> {
-    /// Begins at the solution of a round.
+    /// Begins at the solution of a round of lagged bounds, with this change of the tension.
     pub(super) fn new(
-        operator: &dyn Operator,
         problem: &'a Problem<'a>,
+        preconditioner: &'a mut WaveStiffness,
         influence: f64,
         from: &Solution,
+        change: Field,
     ) -> Self {
-        let shape = operator.grid().shape;
+        let Solution { grid, pressure, displacement, approach, .. } = from;
+        let (pressure, displacement) = (pressure.clone(), displacement.clone());
         Self {
             problem,
             influence,
-            pressure: from.pressure.clone(),
-            displacement: from.displacement.clone(),
-            approach: from.approach,
-            preconditioner: Preconditioner::new(operator),
-            sets: Sets::new(shape),
-            is_stable: true,
+            preconditioner,
+            sets: Sets::new(grid.shape),
+            state: State { pressure, displacement, approach: *approach },
+            change,
+            rounds: 0,
             stats: Stats::default(),
         }
     }
 
-    /// Returns pressure and gap of the stable equilibrium that the iteration finds, if the rounds lead there.
-    pub(super) fn solve(
-        &mut self,
-        operator: &mut dyn Operator,
-        forecast: &Forecast,
-    ) -> Result<Option<(Field, Field)>> {
-        let tolerance = LAST_RESIDUAL * self.problem.params.tolerance;
-        let (mut best, mut stagnations) = (f64::INFINITY, 0);
-        for _ in 0..MAX_STEPS {
-            check_stop(self.problem.watch)?;
-            let gap = self.problem.initial_gap + &self.displacement - self.approach;
-            let bounds = self.problem.bounds_at(&gap);
-            let state = residual(
-                &self.pressure,
-                &self.displacement,
-                self.problem.initial_gap,
-                &bounds,
-                self.influence,
-                Some(self.approach),
-            );
-            if state.eta < tolerance {
-                let is_right = self.is_stable && forecast.leads_to(&gap);
-                return Ok(is_right.then(|| (mem::take(&mut self.pressure), gap)));
+    /// Performs rounds until the bodies are in equilibrium, or until rounds have no stable solution. Returns
+    /// the residual of the last state.
+    pub(super) fn solve(&mut self, operator: &mut dyn Operator, attempts: &mut Attempts) -> Result<f64> {
+        let Params { tolerance, max_convolutions, .. } = *self.problem.params;
+        loop {
+            let gap = self.gap();
+            let eta = self.residual(&self.problem.bounds_at(&gap));
+            if eta < LAST_RESIDUAL * tolerance || self.stats.convolutions >= max_convolutions as f64 {
+                return Ok(eta);
             }
-            if forecast.is_beyond(&gap) {
-                return Ok(None);
+            let before = self.state.clone();
+            let tangent = Tangent::new(self.problem.adhesion, gap, attempts.share);
+            if self.round(operator, &tangent, self.problem.round_tolerance(eta))? {
+                self.rounds += 1;
+                attempts.succeed();
+                continue;
             }
-            if state.eta < PROGRESS * best {
-                (best, stagnations) = (state.eta, 0);
-            } else {
-                stagnations += 1;
-            }
-            if stagnations > MAX_STAGNATIONS {
-                return Ok(None);
-            }
-            let (pressure, gaps, stiffness) = (flat(&self.pressure), flat(&gap), 1.0 / self.influence);
-            self.sets.assign(|cells| cells.map(|cell| pressure[cell] - gaps[cell] * stiffness), &bounds);
-            if matches!(self.problem.control, Control::Load(_)) && self.sets.free_cells() == 0 {
-                return Ok(None);
-            }
-            self.preconditioner.adapt(&self.sets);
-            self.is_stable |= state.eta > CLOSE;
-            let aim = (tolerance / state.eta).max(state.eta.sqrt().min(MAX_REDUCTION));
-            if !self.step(operator, &gap, aim) {
-                return Ok(None);
+            self.state = before;
+            if !attempts.fail() {
+                return Ok(eta);
             }
         }
-        Ok(None)
     }
 
-    /// Performs a step whose equations hold to a fraction `aim` of their right-hand side. They are solved in
-    /// single precision, and the displacement of the solution is computed in double precision. Returns false
-    /// if the step has no solution.
-    fn step(&mut self, operator: &mut dyn Operator, gap: &Field, aim: f64) -> bool {
+    /// Returns the gap.
+    pub(super) fn gap(&self) -> Field {
+        self.problem.initial_gap + &self.state.displacement - self.state.approach
+    }
+
+    /// Solves the contact of a round to this residual. Returns false if it has no stable solution, or if gaps
+    /// rise too far.
+    fn round(&mut self, operator: &mut dyn Operator, tangent: &Tangent, residual: f64) -> Result<bool> {
+        for _ in 0..MAX_STEPS {
+            check_stop(self.problem.watch)?;
+            let gap = self.gap();
+            let tension = tangent.tension(&gap);
+            let bounds = Bounds::up_to(self.problem.upper.clone()).above(-&tension);
+            let eta = self.residual(&bounds);
+            if eta < residual {
+                let change = tangent.leads_on(self.problem.adhesion, &gap, &self.change);
+                return Ok(change.map(|change| self.change = change).is_some());
+            }
+            let (pressure, gaps, stiffness) = (flat(&self.state.pressure), flat(&gap), 1.0 / self.influence);
+            self.sets.assign(|cells| cells.map(|cell| pressure[cell] - gaps[cell] * stiffness), &bounds);
+            let floats = matches!(self.problem.control, Control::Load(_)) && self.sets.free_cells() == 0;
+            // A residual that is not a number is too large, too.
+            let diverges = eta > MAX_STEP_RESIDUAL || eta.is_nan();
+            if floats || diverges || !self.step(operator, &gap, &tension, tangent) {
+                return Ok(false);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Returns the residual η within these bounds.
+    fn residual(&self, bounds: &Bounds) -> f64 {
+        let State { pressure, displacement, approach } = &self.state;
+        let gap = self.problem.initial_gap;
+        residual(pressure, displacement, gap, bounds, self.influence, Some(*approach)).eta
+    }
+
+    /// Performs a step. Its equations are solved in single precision, and the displacement of the solution is
+    /// computed in double precision. Returns false if the step has no stable solution.
+    fn step(&mut self, operator: &mut dyn Operator, gap: &Field, tension: &Field, tangent: &Tangent) -> bool {
         let shape = gap.raw_dim();
         let unit = matches!(self.problem.control, Control::Load(_)).then(|| {
             let mut unit = SingleField::zeros(shape);
-            let [sum, ..] = self.preconditioner.apply(&self.sets, |_| 1.0, flat_mut(&mut unit));
+            let sum = self.preconditioner.apply(&self.sets, |_| 1.0, &mut unit);
             unit.mapv_inplace(|p| (f64::from(p) / sum) as f32);
             unit
         });
-        let step = Step { unit, softening: self.softening(gap) };
-        let right = self.right(&step, gap);
+        let step = Step { unit, softening: self.softening(tangent, tension) };
+        let right = self.right(&step, tension, gap);
         let (mut change, mut response) = (SingleField::zeros(shape), SingleField::zeros(shape));
         let product = |unknowns: &[f32]| {
             self.change(&step, unknowns, &mut change);
             operator.apply_single(&change, &mut response);
             self.left(&step, &change, &response)
         };
-        let Gmres { solution, products, is_positive } = gmres(product, right, aim, MAX_PRODUCTS);
-        self.is_stable &= is_positive;
-        self.change(&step, &solution, &mut change);
+        let Gmres { solution, products, is_positive } = gmres(product, right, STEP_REDUCTION, MAX_PRODUCTS);
         self.stats.iterations += products;
-        self.stats.convolutions += (products + 1) as f64;
+        self.stats.convolutions += products as f64;
+        if !is_positive || products == MAX_PRODUCTS {
+            return false;
+        }
+        self.change(&step, &solution, &mut change);
         if !change.iter().all(|p| p.is_finite()) {
             return false;
         }
@@ -167,43 +244,48 @@ impl<'a> NewtonIteration<'a> {
         }
         let mut response = Field::zeros(shape);
         operator.apply(&change, &mut response);
-        self.pressure += &change;
-        self.displacement += &response;
+        self.stats.convolutions += 1.0;
+        self.state.pressure += &change;
+        self.state.displacement += &response;
         if step.unit.is_some() {
             response += gap;
-            self.approach += self.mean_in_contact(flat(&response));
+            self.state.approach += self.mean_in_contact(flat(&response));
         }
         true
     }
 
-    /// Returns D of the open cells.
-    fn softening(&self, gap: &Field) -> SingleField {
-        let (bands, adhesion) = (self.sets.bands(), self.problem.adhesion);
-        let mut softening = SingleField::zeros(gap.raw_dim());
-        let parts = bands.cut_mut(flat_mut(&mut softening)).zip(bands.cut(flat(gap)));
-        parallel::map(parts.zip(bands.cut(self.sets.by_cell())), |((softening, gap), sets)| {
-            let open = softening.iter_mut().zip(gap).zip(sets).filter(|(_, set)| **set == Set::Lower);
-            open.for_each(|((d, g), _)| *d = adhesion.softening(*g) as f32);
+    /// Returns D of the open cells with this tension.
+    fn softening(&self, tangent: &Tangent, tension: &Field) -> SingleField {
+        let bands = self.sets.bands();
+        let mut softening = SingleField::zeros(tension.raw_dim());
+        let parts = bands.cut_mut(flat_mut(&mut softening)).zip(bands.cut(self.sets.by_cell()));
+        let parts = parts.zip(bands.cut(flat(&tangent.softening))).zip(bands.cut(flat(tension)));
+        parallel::map(parts, |(((softening, sets), from), tension)| {
+            for (((d, set), from), tension) in softening.iter_mut().zip(sets).zip(from).zip(tension) {
+                *d = if *set == Set::Lower && *tension > 0.0 { *from as f32 } else { 0.0 };
+            }
         });
         softening
     }
 
     /// Returns the right-hand side of the equations.
-    fn right(&self, step: &Step, gap: &Field) -> Vec<f32> {
+    fn right(&self, step: &Step, tension: &Field, gap: &Field) -> Vec<f32> {
         let (bands, influence) = (self.sets.bands(), self.influence);
-        let Problem { adhesion, upper, .. } = self.problem;
+        let upper = self.problem.upper;
         // The approach changes by the mean gap first; the open cells follow.
         let mean = if step.unit.is_some() { self.mean_in_contact(flat(gap)) } else { 0.0 };
         let mut right = vec![0.0; gap.len()];
         let parts = bands.cut_mut(&mut right).zip(bands.cut(self.sets.by_cell())).zip(bands.cut(flat(gap)));
-        let parts = parts.zip(bands.cut(flat(&self.pressure))).zip(bands.cut(flat(&step.softening)));
-        parallel::map(parts.enumerate(), |(band, ((((right, sets), gap), pressure), softening))| {
-            let cells = right.iter_mut().zip(sets).zip(gap).zip(pressure).zip(softening).enumerate();
-            for (cell, ((((right, set), g), p), d)) in cells {
+        let parts = parts.zip(bands.cut(flat(&self.state.pressure))).zip(bands.cut(flat(&step.softening)));
+        let parts = parts.zip(bands.cut(flat(tension))).enumerate();
+        parallel::map(parts, |(band, (((((right, sets), gap), pressure), softening), tension))| {
+            let cells =
+                right.iter_mut().zip(sets).zip(gap).zip(pressure).zip(softening).zip(tension).enumerate();
+            for (cell, (((((right, set), g), p), d), tension)) in cells {
                 let value = match set {
                     Set::Free => mean - g,
                     Set::Upper => influence * (upper.value(bands.first(band) + cell) - p),
-                    Set::Lower => -influence * (p + adhesion.tension(*g) + f64::from(*d) * mean),
+                    Set::Lower => -influence * (p + tension + f64::from(*d) * mean),
                 };
                 *right = value as f32;
             }
@@ -213,7 +295,7 @@ impl<'a> NewtonIteration<'a> {
 
     /// Computes the change of the pressures for preconditioned unknowns.
     fn change(&mut self, step: &Step, unknowns: &[f32], change: &mut SingleField) {
-        let [contact, ..] = self.preconditioner.apply(&self.sets, |cell| unknowns[cell], flat_mut(change));
+        let contact = self.preconditioner.apply(&self.sets, |cell| unknowns[cell], change);
         let (bands, stiffness) = (self.sets.bands(), (1.0 / self.influence) as f32);
         let parts =
             bands.cut_mut(flat_mut(change)).zip(bands.cut(unknowns)).zip(bands.cut(self.sets.by_cell()));

@@ -6,7 +6,6 @@ use ndarray::{Array1, Array2};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::forecast::largest_difference;
 use super::*;
 use crate::grid::Grid;
 use crate::math::Cholesky;
@@ -130,6 +129,11 @@ fn random_contact(random: &mut ChaCha8Rng, cells: [usize; 2]) -> Random {
     let upper =
         if random.random_bool(0.2) { CellValues::Uniform(random.random_range(0.05..0.3)) } else { ELASTIC };
     Random { operator, gap, adhesion, upper, approaches: [approach, 0.95 * mean] }
+}
+
+/// Returns the largest difference between two fields.
+fn largest_difference(one: &Field, other: &Field) -> f64 {
+    one.iter().zip(other).fold(0.0, |most, (one, other)| f64::max(most, (one - other).abs()))
 }
 
 /// Solves by lagged bounds alone, each contact to 1e-9, until the bounds stop changing. This converges from
