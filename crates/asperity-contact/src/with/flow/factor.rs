@@ -72,9 +72,9 @@ impl Factor {
 
     /// Solves for the potentials under the currents `right` into each cell, in its place, both indexed by the
     /// cells of the network. The last cell of a component without reservoirs is held at 0.
-    pub(super) fn solve<const N: usize>(&self, right: &mut [[f64; N]]) {
+    pub(super) fn solve(&self, right: &mut [f64]) {
         let cells = &self.ordering.cells;
-        let mut x: Vec<[f64; N]> = cells.iter().map(|cell| right[*cell as usize]).collect();
+        let mut x: Vec<f64> = cells.iter().map(|cell| right[*cell as usize]).collect();
         let mut border = Vec::new();
         for (front, rows) in self.ordering.fronts.iter().zip(&self.rows) {
             let (p, width) = (front.pivots.len(), front.pivots.len() + front.border.len() + 1);
@@ -85,7 +85,7 @@ impl Factor {
                 let (known, later) = own.split_at_mut(k + 1);
                 let known = known[k];
                 for (x, l) in later.iter_mut().zip(&row[k + 1..p]).chain(border.iter_mut().zip(&row[p..])) {
-                    (0..N).for_each(|n| x[n] += l * known[n]);
+                    *x += l * known;
                 }
             }
             front.border.iter().zip(&border).for_each(|(n, new)| x[*n as usize] = *new);
@@ -97,9 +97,9 @@ impl Factor {
             let own = &mut x[front.pivots.clone()];
             for (k, row) in rows.chunks_exact(width).enumerate().rev() {
                 let pivot = self.pivots[front.pivots.start + k];
-                let mut sum = if pivot > 0.0 { own[k].map(|x| x / pivot) } else { [0.0; N] };
+                let mut sum = if pivot > 0.0 { own[k] / pivot } else { 0.0 };
                 for (x, l) in own[k + 1..].iter().zip(&row[k + 1..p]).chain(border.iter().zip(&row[p..])) {
-                    (0..N).for_each(|n| sum[n] += l * x[n]);
+                    sum += l * x;
                 }
                 own[k] = sum;
             }

@@ -30,12 +30,14 @@ mod doubts;
 mod faces;
 mod factor;
 mod fluid;
+mod multigrid;
 mod observer;
 mod ordering;
 mod pressure;
 mod record;
 mod rules;
 mod shear;
+mod solver;
 mod table;
 mod views;
 
@@ -53,9 +55,8 @@ use ndarray::Array2;
 
 use components::{AT_END, AT_START, Components, WINDS_X, WINDS_Y};
 use faces::{Network, Topology};
-use factor::Factor;
-use ordering::Ordering;
 use pressure::Solved;
+use solver::{FEWEST, Solver};
 
 use crate::error::{Error, Result, check_in};
 use crate::grid::{Field, Grid, check_finite, in_rows};
@@ -309,15 +310,16 @@ const TOLERANCE: f64 = 1e-10;
 pub fn memory(shape: [usize; 2]) -> f64 {
     let cells = shape[0] as f64 * shape[1] as f64;
     let side = shape[0].min(shape[1]).max(2) as f64;
-    // Entries of the factor of a square grid: 60 a cell at 256², 69 at 512², 77 at 1024².
-    let factor = (8.5 * side.log2() - 7.0).max(10.0);
-    8.0 * cells * (1.3 * factor + 40.0)
+    // Entries of the factor of a square grid: 52 a cell at 128², 60 at 256². Levels and vectors of multigrid: 100 bytes a cell.
+    let solver = if cells < FEWEST as f64 { 1.3 * (8.5 * side.log2() - 7.0).max(10.0) } else { 13.0 };
+    8.0 * cells * (solver + 40.0)
 }
 
 /// Solves for the flow through a `gap`, in metres. Cells whose gap is not positive are closed.
 ///
-/// The linear system is solved directly, so that any contrast of the gaps is permitted. Gaps below 10⁻²⁰ of
-/// the largest count as closed too. The answer does not depend on the number of threads.
+/// Up to 10⁵ flowing cells are eliminated. More are solved for by multigrid, whose time and memory are linear in their
+/// number. They are eliminated too if that does not converge, so that any contrast of the gaps is permitted. Gaps below
+/// 10⁻²⁰ of the largest count as closed. The answer does not depend on the number of threads.
 ///
 /// # Errors
 /// - [`Error::GridMismatch`] if the gap has another shape than the grid.
@@ -349,7 +351,7 @@ pub fn solve(gap: &Field, grid: &Grid, settings: &Settings) -> Result<Flow> {
     let mut along = [None, None];
     let mut coupling = None;
     if periodic {
-        // One factor serves both directions.
+        // One solver serves both directions.
         let part = Part::new(&gaps, Topology { shape, closed: [false; 2], between: None }, settings.faces);
         if asked == [true; 2] {
             let [x, y] = part.solve([0, 1])?;
@@ -442,10 +444,10 @@ impl<'a> Part<'a> {
         let wanted: Vec<bool> =
             (0..self.marks.len()).map(|cell| flowing.iter().any(|flowing| flowing[cell])).collect();
         let periodic = self.topology.closed.map(|closed| !closed);
-        let factor = Factor::new(&self.network, Ordering::new(&self.network, &wanted, periodic));
+        let mut solver = Solver::new(&self.network, &wanted, periodic);
         let each: [usize; N] = std::array::from_fn(|n| n);
-        let solved = pressure::solve(&self.network, &factor, each.map(|n| (axes[n], flowing[n].as_slice())));
-        drop(factor);
+        let solved = each.map(|n| pressure::solve(&self.network, &mut solver, axes[n], &flowing[n]));
+        drop(solver);
         let paths =
             constriction::constrictions(&self.gaps.scaled, self.topology, axes.map(|axis| self.needed(axis)));
         let other = match self.faces {
@@ -773,8 +775,8 @@ mod tests {
         let tensor = |faces: [Vec<f64>; 2]| {
             let network = Network { shape: [nx, ny], faces, ends: None };
             let wanted = vec![true; nx * ny];
-            let factor = Factor::new(&network, Ordering::new(&network, &wanted, [true; 2]));
-            let [x, y] = pressure::solve(&network, &factor, [(0, &wanted), (1, &wanted)]);
+            let mut solver = Solver::new(&network, &wanted, [true; 2]);
+            let [x, y] = [0, 1].map(|axis| pressure::solve(&network, &mut solver, axis, &wanted));
             let xy = x.work(&y, &network) / (nx * ny) as f64;
             [x.through / ny as f64, xy, y.through / nx as f64]
         };

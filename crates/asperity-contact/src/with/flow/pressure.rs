@@ -6,16 +6,23 @@
 //! imbalance of the fluxes is summed cell by cell, and P₂ solves for it.
 
 use super::faces::{Network, end_cells};
-use super::factor::Factor;
+use super::solver::Solver;
 
-/// Most rounds of solving for what is left.
-const ROUNDS: usize = 16;
+/// Fewest and most rounds of solving for what is left, with the cells eliminated.
+const ELIMINATED: [usize; 2] = [2, 16];
 
-/// Difference between sections at which no further round is made.
+/// Fewest and most rounds of a solver that iterates.
+const ITERATED: [usize; 2] = [1, 6];
+
+/// Difference between sections at which no further round is made, with the cells eliminated.
 const ENOUGH: f64 = 4e-15;
 
-/// Difference between sections above which rounds go on, though one of them may not have helped.
+/// Difference between sections above which rounds go on, though one of them may not have helped. A solver that iterates does
+/// not go on below.
 const TOO_MUCH: f64 = 1e-11;
+
+/// Tolerance of the first round of a solver that iterates.
+const FIRST: f64 = 1e-13;
 
 /// Flow along an axis, for a drop of 1 between neighbouring cells of a periodic axis, or of 1 between
 /// reservoirs.
@@ -44,64 +51,56 @@ struct State<'a> {
     flowing: &'a [bool],
     coarse: Vec<f64>,
     fine: Vec<f64>,
-    /// The best fluxes so far.
-    best: Option<Solved>,
 }
 
-/// Solves for the flow along N axes, of the cells that flow along each of them. The factor has all of these
-/// cells.
-pub(super) fn solve<const N: usize>(
-    network: &Network,
-    factor: &Factor,
-    axes: [(usize, &[bool]); N],
-) -> [Solved; N] {
+/// Solves for the flow along an axis, of the cells that flow along it.
+///
+/// Cells are eliminated if a solver that iterates does not reach enough.
+pub(super) fn solve(network: &Network, solver: &mut Solver<'_>, axis: usize, flowing: &[bool]) -> Solved {
+    let mut solved = solve_in_rounds(network, solver, axis, flowing);
+    if solver.iterates() && solved.sections > TOO_MUCH {
+        solver.eliminate();
+        solved = solve_in_rounds(network, solver, axis, flowing);
+    }
+    solved
+}
+
+fn solve_in_rounds(network: &Network, solver: &mut Solver<'_>, axis: usize, flowing: &[bool]) -> Solved {
     let cells = network.cells();
-    let mut states = axes.map(|(axis, flowing)| State {
-        axis,
-        flowing,
-        coarse: vec![0.0; cells],
-        fine: vec![0.0; cells],
-        best: None,
-    });
-    let mut right = vec![[0.0; N]; cells];
-    for round in 0..=ROUNDS {
-        let mut going = false;
-        right.fill([0.0; N]);
-        for (n, state) in states.iter_mut().enumerate() {
-            let (solved, imbalance) = state.fluxes(network, round);
-            let better =
-                state.best.as_ref().is_none_or(|best| round < 2 || solved.sections < 0.5 * best.sections);
-            let enough = round >= 2
-                && (solved.sections <= ENOUGH
-                    || (!better && state.best.as_ref().is_some_and(|best| best.sections < TOO_MUCH)));
-            if better {
-                state.best = Some(solved);
-            }
-            if !enough && round < ROUNDS {
-                going = true;
-                imbalance.iter().zip(&mut right).for_each(|(r, right)| right[n] = *r);
-            }
-        }
-        if !going {
+    let mut state = State { axis, flowing, coarse: vec![0.0; cells], fine: vec![0.0; cells] };
+    let (mut best, mut right) = state.fluxes(network, 0);
+    let [least, most] = if solver.iterates() { ITERATED } else { ELIMINATED };
+    let enough = if solver.iterates() { TOO_MUCH } else { ENOUGH };
+    let mut tolerance = FIRST;
+    for round in 1..=most {
+        if !solver.solve(&mut right, tolerance) {
             break;
         }
-        factor.solve(&mut right);
-        for (n, state) in states.iter_mut().enumerate() {
-            state.add(&right, n);
+        state.add(&right);
+        let (solved, imbalance) = state.fluxes(network, round);
+        let sections = solved.sections;
+        let better = round < 2 || sections < 0.5 * best.sections;
+        if better {
+            best = solved;
         }
+        if round >= least && (best.sections <= enough || (!better && best.sections < TOO_MUCH)) {
+            break;
+        }
+        tolerance = (0.1 * enough / sections).max(FIRST);
+        right = imbalance;
     }
-    states.map(|state| state.best.expect("at least one round"))
+    best
 }
 
 impl State<'_> {
     /// Adds a correction and divides the sum into its two parts anew.
-    fn add<const N: usize>(&mut self, correction: &[[f64; N]], n: usize) {
+    fn add(&mut self, correction: &[f64]) {
         let largest =
-            self.coarse.iter().zip(correction).fold(1.0_f64, |most, (p, c)| most.max((p + c[n]).abs()));
+            self.coarse.iter().zip(correction).fold(1.0_f64, |most, (p, c)| most.max((p + c).abs()));
         // Adding and subtracting this rounds to multiples of its last binary digit.
         let round = 3.0 * 2.0_f64.powi(largest.log2().ceil() as i32);
         for ((coarse, fine), correction) in self.coarse.iter_mut().zip(&mut self.fine).zip(correction) {
-            let [sum, rest] = two_sum(*coarse, correction[n]);
+            let [sum, rest] = two_sum(*coarse, *correction);
             let new = (sum + round) - round;
             *fine += (sum - new) + rest;
             *coarse = new;

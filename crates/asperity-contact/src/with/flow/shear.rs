@@ -12,8 +12,7 @@
 //! their heights over the sum. Patir & Cheng, J. Lubr. Technol. 101, 220 (1979).
 
 use super::faces::{Faces, Network, Topology};
-use super::factor::Factor;
-use super::ordering::Ordering;
+use super::solver::Solver;
 use crate::grid::{Field, Grid, flat, in_rows};
 use crate::units::Metre;
 
@@ -28,6 +27,9 @@ pub struct ShearFlow {
 
 /// Rounds of solving for what is left of the imbalance.
 const ROUNDS: usize = 3;
+
+/// Tolerance of each round, if the solver iterates.
+const TOLERANCE: f64 = 1e-6;
 
 /// Solves for the shear along x and along y. Cells whose gap is not positive are closed. The answer is 0 without open
 /// cells.
@@ -46,35 +48,39 @@ pub fn shear_flow(gap: &Field, grid: &Grid, faces: Faces) -> [ShearFlow; 2] {
     let topology = Topology { shape: grid.shape, closed: [false; 2], between: None };
     let network = Network::new(&gaps, grid.pitch, faces, topology);
     let open: Vec<bool> = gaps.iter().map(|gap| *gap > 0.0).collect();
-    let factor = Factor::new(&network, Ordering::new(&network, &open, [true; 2]));
+    let mut solver = Solver::new(&network, &open, [true; 2]);
     // Gap and permeability of a face are those of one gap.
     let width = [grid.pitch[1], grid.pitch[0]];
     let ratio = [0, 1].map(|axis| width[axis] / grid.pitch[axis]);
     let face_gap = |axis: usize, cell: usize| (network.faces[axis][cell] / ratio[axis]).cbrt();
-    let mut potential = vec![[0.0; 2]; gaps.len()];
-    for _ in 0..ROUNDS {
-        let mut right = vec![[0.0; 2]; gaps.len()];
-        for (direction, width) in width.into_iter().enumerate() {
-            for (cell, transmissibility) in network.faces[direction].iter().enumerate() {
-                let (before, _) = network.before(cell, direction);
-                for n in 0..2 {
-                    let driven = if n == direction { face_gap(direction, cell) * width } else { 0.0 };
-                    let through = transmissibility * (potential[before][n] - potential[cell][n]) - driven;
-                    right[cell][n] += through;
-                    right[before][n] -= through;
+    [0, 1].map(|axis| {
+        let mut potential = vec![0.0; gaps.len()];
+        let mut round = 0;
+        while round < ROUNDS {
+            let mut right = vec![0.0; gaps.len()];
+            for (direction, faces) in network.faces.iter().enumerate() {
+                for (cell, transmissibility) in faces.iter().enumerate() {
+                    let (before, _) = network.before(cell, direction);
+                    let driven = if direction == axis { face_gap(axis, cell) * width[axis] } else { 0.0 };
+                    let through = transmissibility * (potential[before] - potential[cell]) - driven;
+                    right[cell] += through;
+                    right[before] -= through;
                 }
             }
+            if solver.solve(&mut right, TOLERANCE) {
+                potential.iter_mut().zip(right).for_each(|(potential, more)| *potential += more);
+                round += 1;
+            } else {
+                // From the start: what is left of the currents has lost digits.
+                solver.eliminate();
+                potential.fill(0.0);
+                round = 0;
+            }
         }
-        factor.solve(&mut right);
-        for (potential, more) in potential.iter_mut().zip(right) {
-            (0..2).for_each(|n| potential[n] += more[n]);
-        }
-    }
-    [0, 1].map(|axis| {
         let (mut carried, mut stress) = (0.0, 0.0);
         for (cell, transmissibility) in network.faces[axis].iter().enumerate() {
             let (before, _) = network.before(cell, axis);
-            let rise = potential[cell][axis] - potential[before][axis];
+            let rise = potential[cell] - potential[before];
             let gap = face_gap(axis, cell);
             carried -= gap + transmissibility * rise / width[axis];
             stress -= gap * rise / grid.pitch[axis];
