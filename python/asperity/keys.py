@@ -588,10 +588,10 @@ class Joint(TypedDict, total=False):
     samples : int
         Samples that `asperity joint` computes, each of generated surfaces from other seeds; whole number, 1 … 10000.
         Without it: 1, or the number of patches or files.
-    patches : float or str
+    patches : sequence
         Patches along x and y into which `asperity joint` cuts measured surfaces; each is a sample; `[nx, ny]`, each ≥
         1. Without it: the whole map.
-    files : float or str
+    files : sequence
         Measured files that `asperity joint` takes in place of that of the one measured body; each is a sample; file
         names, relative to the case file. Without it: that of the body.
     every : int
@@ -600,8 +600,8 @@ class Joint(TypedDict, total=False):
     """
 
     samples: int
-    patches: Quantity
-    files: Quantity
+    patches: Sequence[int]
+    files: Sequence[str]
     every: int
 
 

@@ -223,6 +223,7 @@ mod tests {
             ("flowing", "44c871dd"),
             ("forms", "45aafccc"),
             ("grooves", "21dc62a2"),
+            ("layered", "d6ba2f67"),
             ("line", "8fb19859"),
             ("looked_into", "af5e8b80"),
             ("matrix_of_text", "e065768a"),

@@ -12,6 +12,7 @@ use asperity::with::{
 
 use super::rows::planes;
 use crate::maps::line;
+use asperity_report::page::layers_in_words;
 use asperity_report::words::closed_form;
 
 /// Describes a static contact and the largest stress below the surface, with a line for each number. The run
@@ -121,8 +122,9 @@ fn plastic_line(plastic: &PlasticRecord) -> String {
 fn stress_line(record: &SubsurfaceRecord) -> String {
     let pass = record.pass.map_or(String::new(), |pass| format!("pass {pass}: "));
     let [x, y, z] = record.position.map(|length| format(length, Dimension::Length));
+    let layers = layers_in_words(record).map_or(String::new(), |layers| layers + "\n");
     format!(
-        "{pass}largest von Mises stress {} at x = {x}, y = {y}, depth {z}\n",
+        "{pass}largest von Mises stress {} at x = {x}, y = {y}, depth {z}\n{layers}",
         format(record.max_von_mises, Dimension::Pressure)
     )
 }

@@ -67,7 +67,8 @@ impl LoadedContact {
 pub(super) fn static_record(contact: &Equilibrium, plastic: &Field) -> StaticRecord {
     StaticRecord {
         elastic_energy: contact.elastic_energy(),
-        plastic_volume: contact.normal().grid.cell_area() * plastic.sum(),
+        // In the order of the sum of a contact at once.
+        plastic_volume: contact.normal().grid.cell_area() * plastic.iter().sum::<f64>(),
         ..StaticRecord::new(contact.normal())
     }
 }

@@ -228,7 +228,7 @@ fn passes_in_one_batch_are_those_of_the_processor() {
                 .with_stride(5)
                 .with_load_control(load_control)
                 .with_plastic_update(update)
-                .with_load_tolerance(1e-6);
+                .with_load_tolerance(1e-7);
             let params = Params::new().with_tolerance(1e-8).with_device(device);
             Kept::run(Simulation::new(pair(), boundary, motion, params).unwrap())
         };

@@ -53,6 +53,7 @@ pub use live::LivePage;
 use page_data::PageData;
 use quantised::QuantisedField;
 pub use study::{answers_of_study, write_study};
+pub use verdict::layers_in_words;
 use witness::{DPI, PICTURES};
 pub use witness::{Seen, gathered};
 

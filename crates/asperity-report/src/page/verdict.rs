@@ -69,7 +69,25 @@ fn of_passes(found: &PageData, last: &PassRecord) -> String {
 fn of_stress(stress: &SubsurfaceRecord) -> String {
     let [x, y, depth] = stress.position.map(|length| format(length, Dimension::Length));
     let most = format(stress.max_von_mises, Dimension::Pressure);
-    format!("The largest von Mises stress is {most}, {depth} below the surface at x = {x}, y = {y}.")
+    let layers = layers_in_words(stress).map_or(String::new(), |layers| format!(" {layers}"));
+    format!("The largest von Mises stress is {most}, {depth} below the surface at x = {x}, y = {y}.{layers}")
+}
+
+/// What cracks layers and takes them off, in a sentence; `None` of bodies without layers.
+pub fn layers_in_words(stress: &SubsurfaceRecord) -> Option<String> {
+    let write = |stress: f64| format(stress, Dimension::Pressure);
+    let surface = format!("The surface is stretched by up to {}", write(stress.max_surface_tension?));
+    let interfaces = stress.max_interface_shear.zip(stress.max_interface_tension);
+    Some(match interfaces {
+        Some((shear, tension)) => {
+            format!(
+                "{surface}, the interfaces are sheared by up to {} and pulled by up to {}.",
+                write(shear),
+                write(tension)
+            )
+        }
+        None => surface + ".",
+    })
 }
 
 /// How the rms heights of the bodies have changed.

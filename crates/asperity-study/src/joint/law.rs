@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::doubts::{left_out, of_samples};
 use super::quantities::{Found, Kind, QUANTITIES, along};
+use super::warnings::{left_out, of_samples};
 use crate::parametric::{Folder, Study};
 use crate::results::Results;
 use asperity_base::error::{Error, Result};

@@ -17,6 +17,7 @@ mod law; // samples as one law
 mod quantities; // what the law is of
 mod samples; // the study of a case
 mod table; // joint.csv
+mod warnings; // what is told of the samples
 
 pub use clients::{Client, ClientFile, ClientSettings, Units};
 pub use coefficients::{Coefficients, Exponential, GreenwoodTripp, PatirCheng};

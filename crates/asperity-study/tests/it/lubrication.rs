@@ -74,7 +74,8 @@ fn the_fields_of_a_film_belong_together() {
         assert!(solids[cell] == 0.0 || (gap[cell] - 2e-9).abs() < 1e-11, "{}", gap[cell]);
         assert!(oil[cell] == 0.0 || cavity[cell] == 0.0);
     }
-    assert_eq!(gap.iter().copied().fold(f64::INFINITY, f64::min), film.min_film);
+    let least = gap.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!((least / film.min_film - 1.0).abs() < 1e-12, "{least:e} {:e}", film.min_film);
 }
 
 /// ISO VG 46 has 39.7 mPa s and 20.7 1/GPa at 40 °C.
