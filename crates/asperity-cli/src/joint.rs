@@ -67,7 +67,7 @@ pub fn write_joint(
     figures::draw_joint(&law, &path("figures"), &figures::FigureOptions::default(), &|| false)
         .map_err(failed)?;
     page::write_joint(&law, &names, &doubts, &path("joint.html"))?;
-    // What another program takes is there all the same.
+    // Files that another program takes are there all the same.
     refused.map_or(Ok((law, doubts)), Err)
 }
 

@@ -1,4 +1,4 @@
-//! What is told of the samples of a law, and what it leaves out.
+//! Warnings about the samples of a law, and about what it leaves out.
 
 use crate::case::Case;
 

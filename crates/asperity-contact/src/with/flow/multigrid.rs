@@ -487,7 +487,7 @@ impl Coarsest {
         for k in 0..n {
             let (row, later) = rows[k * (n + 1)..].split_at_mut(n + 1);
             let sum = row[k + 1..].iter().sum::<f64>();
-            // What is left alone at the end of a component without reservoirs is held at 0.
+            // A cell that is left alone at the end of a component without reservoirs is held at 0.
             let scale = if sum > 0.0 { sum.recip() } else { 0.0 };
             for (i, other) in (k + 1..n).zip(later.chunks_exact_mut(n + 1)) {
                 let factor = row[i] * scale;

@@ -231,7 +231,7 @@ mod tests {
             }
             sum
         };
-        // What the walls bring into a cell, and what its rising gap takes: ∂g/∂t = −∂g/∂x.
+        // The walls bring fluid into a cell, and its rising gap takes some: ∂g/∂t = −∂g/∂x.
         let mut residual = Field::from_shape_fn([n, n], |(i, j)| {
             let (i, j) = (i as f64, j as f64 + 0.5);
             0.5 * d * (at(i, j) - at(i + 1.0, j)) - d * (at(i, j) - at(i + 1.0, j))

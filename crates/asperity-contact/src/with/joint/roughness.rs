@@ -27,7 +27,7 @@ impl GapRoughness {
     /// Computes the moments of an undeformed `gap` by differences between neighbouring cells.
     ///
     /// # Errors
-    /// Those of [`Topography::new`].
+    /// The errors of [`Topography::new`].
     pub fn new(grid: &Grid, gap: &Field) -> Result<Self> {
         let topography = Topography::new(*grid, gap.clone())?;
         let ([nx, ny], [dx, dy]) = (grid.shape, grid.pitch);
