@@ -269,7 +269,7 @@ impl Subsurface {
 
 /// The stress in layers at a depth.
 enum Inside {
-    /// Numbers of each wave of the grid, for wavenumbers ≥ 0.
+    /// Stress of each wave of the grid, for wavenumbers ≥ 0.
     Waves(Array2<WaveStress>),
     /// At the offsets ≥ 0 from a cell, per unit of each traction.
     Cells(Array2<[Stress; 3]>),
