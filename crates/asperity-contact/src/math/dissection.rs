@@ -28,8 +28,8 @@ impl Front {
 /// The order of elimination of the cells of a grid.
 ///
 /// A part is cut in two by rows of cells, which are eliminated after both. Near the middle the rows with the
-/// fewest wanted cells are taken: where few are wanted, cuts are short. A periodic axis is first cut at the row
-/// with the fewest cells of all.
+/// fewest wanted cells are taken: where few are wanted, cuts are short. A part that is closed along a periodic axis
+/// is cut open there before it is cut in two along this axis, at the row with the fewest cells of the grid.
 pub(crate) struct Dissection {
     /// The cell of each number.
     pub(crate) cells: Vec<u32>,
@@ -50,17 +50,8 @@ impl Dissection {
             };
             (0..shape[axis]).min_by_key(|index| cuts.wanted_in(line(*index)))
         };
-        let origin = [0, 1].map(|axis| if periodic[axis] { rows(axis).unwrap_or(0) } else { 0 });
-        cuts.origin = origin;
-        let [closing_x, closing_y] =
-            [0, 1].map(|axis| if periodic[axis] { reach[axis].min(shape[axis]) } else { 0 });
-        let [nx, ny] = shape;
-        let roots = cuts.dissect([closing_x..nx, closing_y..ny]);
-        // The rows at the origin of the periodic axes close the rings.
-        let first = cuts.cells.len();
-        cuts.push([closing_x..nx, 0..closing_y]);
-        cuts.push([0..closing_x, 0..ny]);
-        cuts.front(first, roots);
+        cuts.origin = [0, 1].map(|axis| if periodic[axis] { rows(axis).unwrap_or(0) } else { 0 });
+        cuts.dissect(shape.map(|n| 0..n), periodic);
         Self { cells: cuts.cells, fronts: cuts.fronts }
     }
 }
@@ -123,8 +114,9 @@ impl Cuts<'_> {
         vec![self.fronts.len() - 1]
     }
 
-    /// Numbers the cells of a rectangle and returns the fronts that are left to the cells around it.
-    fn dissect(&mut self, sides: [Range<usize>; 2]) -> Vec<usize> {
+    /// Numbers the cells of a rectangle, which may be `closed` along an axis, and returns the fronts that are left to the
+    /// cells around it.
+    fn dissect(&mut self, sides: [Range<usize>; 2], closed: [bool; 2]) -> Vec<usize> {
         let along = usize::from(sides[0].len() * self.reach[1] < sides[1].len() * self.reach[0]);
         let (start, length, thick) = (sides[along].start, sides[along].len(), self.reach[along]);
         if length <= thick || self.wanted_in(sides.clone()) <= LEAF {
@@ -137,6 +129,14 @@ impl Cuts<'_> {
             part[along] = range;
             part
         };
+        if closed[along] {
+            let mut open = closed;
+            open[along] = false;
+            let children = self.dissect(part(start + thick..start + length), open);
+            let first = self.cells.len();
+            self.push(part(start..start + thick));
+            return self.front(first, children);
+        }
         let cost = |index: usize| {
             let off = (2 * (index - start) + thick) as f64 / length as f64 - 1.0;
             (1.0 + self.wanted_in(part(index..index + thick)) as f64) * (1.0 + 2.0 * off * off)
@@ -144,8 +144,8 @@ impl Cuts<'_> {
         let near = start + (length / 3).min(length - thick)..start + length - (length / 3).max(thick - 1);
         let cut = near.map(|index| (cost(index), index)).min_by(|a, b| a.0.total_cmp(&b.0));
         let (_, cut) = cut.expect("the middle third has a row");
-        let mut children = self.dissect(part(start..cut));
-        children.append(&mut self.dissect(part(cut + thick..start + length)));
+        let mut children = self.dissect(part(start..cut), closed);
+        children.append(&mut self.dissect(part(cut + thick..start + length), closed));
         let first = self.cells.len();
         self.push(part(cut..cut + thick));
         self.front(first, children)

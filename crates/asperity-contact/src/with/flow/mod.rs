@@ -786,4 +786,23 @@ mod tests {
         assert_relative_eq!(dual_yy * determinant, yy, max_relative = 1e-13);
         assert!((dual_xy * determinant - xy).abs() < 1e-13 * xx);
     }
+
+    /// A strip of one to four cells across the flow, whose columns are alike: the faces are in series. As one axis is closed
+    /// to a ring of few cells, cutting it open must not join all cells of the other one.
+    #[test]
+    fn long_strips_are_cut_across_and_have_their_faces_in_series() {
+        let n = 20_000;
+        let gap = |i: usize| 1e-6 * (1.2 + (0.7 * i as f64).sin());
+        let settings = Settings::default();
+        let resistance: f64 = (0..n).map(|i| settings.faces.mean(gap(i), gap((i + 1) % n)).recip()).sum();
+        for width in [1, 2, 4] {
+            for axis in [0, 1] {
+                let shape = if axis == 0 { [n, width] } else { [width, n] };
+                let field = Field::from_shape_fn(shape, |(i, j)| gap([i, j][axis]));
+                let flow = solve(&field, &Grid::new(shape, [1e-6; 2]).unwrap(), &settings).unwrap();
+                let found = flow.along[axis].as_ref().unwrap().permeability;
+                assert_relative_eq!(found, n as f64 / resistance, max_relative = 1e-9);
+            }
+        }
+    }
 }
