@@ -35,7 +35,7 @@ pub struct SteadySliding {
 
 /// The displacement of bodies that slide steadily, and its approximate inverse.
 pub(super) struct Response {
-    grid: Grid,
+    pub(super) grid: Grid,
     boundary: Boundary,
     creep: Creep,
     speed: MetrePerSecond,
@@ -43,9 +43,10 @@ pub(super) struct Response {
     table: Option<Field>,
     displacement: SkewConvolution,
     preconditioner: SkewConvolution,
-    self_influence: f64,
+    /// Displacement of a cell per unit pressure on itself, m/Pa.
+    pub(super) self_influence: f64,
     /// Calls of the displacement and the slope.
-    convolutions: f64,
+    pub(super) convolutions: f64,
 }
 
 impl SteadySliding {
@@ -150,8 +151,9 @@ impl Response {
         this
     }
 
-    /// Returns the response on a grid of twice the pitch: the mean over four cells under the same pressure on four cells.
-    /// `None` on grids that are small or have an odd side.
+    /// Returns the response on a grid of twice the pitch; `None` on grids that are small or have an odd side. On a grid that is
+    /// free along x it is the mean over four cells under the same pressure on four cells, on a periodic one that of the
+    /// harmonics.
     pub(super) fn coarse(&self) -> Option<Self> {
         let shape = self.grid.shape;
         let divides = shape.iter().all(|cells| cells % 2 == 0);
@@ -164,8 +166,8 @@ impl Response {
         Some(Self::new(grid, self.boundary, &self.creep, self.speed, table))
     }
 
-    /// Returns the table of a coarse grid: of each pair of cells along an axis two have the offset of the coarse cells, and
-    /// one each lies a cell nearer and farther.
+    /// Returns the table of a coarse grid. Along each axis two of the four pairs of cells in two coarse cells have the offset
+    /// of these; one pair is a cell nearer, and one a cell farther.
     fn coarse_table(&self, table: &Field, shape: [usize; 2]) -> Field {
         const NEIGHBOURS: [(isize, f64); 3] = [(-1, 0.5), (0, 1.0), (1, 0.5)];
         let [nx, ny] = self.grid.shape.map(|cells| cells as isize);
@@ -181,21 +183,6 @@ impl Response {
             };
             terms.map(value).sum()
         })
-    }
-
-    /// The grid.
-    pub(super) fn grid(&self) -> &Grid {
-        &self.grid
-    }
-
-    /// Displacement of a cell per unit pressure on itself, m/Pa.
-    pub(super) fn self_influence(&self) -> f64 {
-        self.self_influence
-    }
-
-    /// Number of convolutions so far.
-    pub(super) fn convolutions(&self) -> f64 {
-        self.convolutions
     }
 
     /// Computes the `displacement` under a `pressure`, m.

@@ -172,7 +172,7 @@ impl<'a> Rounds<'a> {
         let Some(mut coarse) = self.operator.coarse() else { return Ok(0.0) };
         let halved = |field: &Field| {
             let means = field.exact_chunks((2, 2)).into_iter().map(|cells| 0.25 * cells.sum());
-            Field::from_shape_vec(coarse.grid().shape, means.collect()).expect("four cells in each")
+            Field::from_shape_vec(coarse.grid.shape, means.collect()).expect("four cells in each")
         };
         let (gap, start) = (halved(self.gap), halved(&self.pressure));
         let params = params.with_tolerance(params.tolerance.max(COARSE_TOLERANCE));
@@ -182,7 +182,7 @@ impl<'a> Rounds<'a> {
                 cells.for_each(|((i, j), p)| *p = pressure[(i / 2, j / 2)]);
                 self.rescale();
                 self.displace();
-                Ok(0.25 * (convolutions + coarse.convolutions()))
+                Ok(0.25 * (convolutions + coarse.convolutions))
             }
             Err(Error::Interrupted) => Err(Error::Interrupted),
             Err(_) => Ok(0.0),
@@ -192,7 +192,7 @@ impl<'a> Rounds<'a> {
     /// Returns Σ p under a load.
     fn sum(&self) -> Option<f64> {
         match self.control {
-            Control::Load(load) => Some(load / self.operator.grid().cell_area()),
+            Control::Load(load) => Some(load / self.operator.grid.cell_area()),
             Control::Approach(_) => None,
         }
     }
@@ -215,7 +215,7 @@ impl<'a> Rounds<'a> {
             Control::Approach(approach) => Some(approach),
             Control::Load(_) => None,
         };
-        let c0 = self.operator.self_influence();
+        let c0 = self.operator.self_influence;
         residual(&self.pressure, &self.displacement, self.gap, &Bounds::ELASTIC, c0, approach)
     }
 
@@ -267,7 +267,7 @@ impl<'a> Rounds<'a> {
     /// Predicts which cells touch: those whose pressure stays above 0 when they close the gap, at the
     /// approach at which they bear the load.
     fn predict(&self, caution: f64, approach: f64) -> Vec<bool> {
-        let predicted: Vec<f64> = self.closing(caution * self.operator.self_influence(), approach).collect();
+        let predicted: Vec<f64> = self.closing(caution * self.operator.self_influence, approach).collect();
         let offset = self.sum().map_or(0.0, |sum| {
             let most = predicted.iter().fold(sum, |most, p| most.max(p.abs() + sum));
             let sums = |offset: f64| {
@@ -281,7 +281,7 @@ impl<'a> Rounds<'a> {
 
     /// Lets cells on the wrong side change sides.
     fn correct(&self, sets: &mut Sets, approach: f64) {
-        let touches = self.closing(self.operator.self_influence(), approach).map(|p| p > 0.0);
+        let touches = self.closing(self.operator.self_influence, approach).map(|p| p > 0.0);
         let wrong = touches.zip(&sets.touching).enumerate().filter(|(_, (now, then))| now != *then);
         let wrong: Vec<usize> = wrong.map(|(cell, _)| cell).collect();
         let Some(last) = wrong.last() else { return };
