@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity::Error;
 use asperity::study::joint::{Client, ClientSettings, Law, samples};
 use asperity::study::parametric::{Folder, Queue, Study, Task};
+use asperity::{Choice as _, Error};
 
 use crate::report::{Outcome, note, print};
 use crate::{args, place, study};
@@ -74,10 +74,14 @@ pub fn write_joint(
 /// Removes the files for other programs.
 fn remove_files(folder: &Path) -> asperity::Result<()> {
     let failed = |source| Error::File { path: folder.to_owned(), source };
+    let is_for = |name: &str| {
+        name.strip_prefix("joint-")
+            .is_some_and(|rest| Client::NAMES.iter().any(|client| rest.starts_with(client)))
+    };
     for entry in fs::read_dir(folder).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        if entry.file_name().to_string_lossy().starts_with("joint-") {
-            fs::remove_file(entry.path()).map_err(failed)?;
+        let path = entry.map_err(failed)?.path();
+        if path.is_file() && path.file_name().is_some_and(|name| is_for(&name.to_string_lossy())) {
+            fs::remove_file(&path).map_err(|source| Error::File { path, source })?;
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Reasons not to trust a law.
 
-use super::law::{Edge, Law};
+use super::law::{Band, Edge, Law};
 use super::quantities::Kind;
 use super::samples::MAX_SAMPLES;
 use asperity_base::units::{Dimension, format, format_number_digits};
@@ -14,6 +14,9 @@ const ENOUGH: f64 = 8.0;
 
 /// Relative error of the roll-off wavelength that is estimated from the correlation length.
 const ROLLOFF_UNCERTAINTY: f64 = 0.15;
+
+/// Ratio of an rms height to the median beyond which samples are of different surfaces.
+const UNLIKE: f64 = 2.0;
 
 /// Length over which the pressure falls by e, over σ, below which single cells bear. By Persson's theory it is 0.4.
 const FEW_CELLS: f64 = 0.04;
@@ -29,6 +32,7 @@ impl Law {
             self.missing_samples(),
             self.single_sample(),
             self.short_samples(),
+            self.unlike_samples(),
             self.few_cells(),
             self.full_contact().or_else(|| self.falls()),
             self.far_apart(),
@@ -68,6 +72,17 @@ impl Law {
         Some(format!(
             "a sample is only {about} long: it is a curve of its own, and no law; take samples of at least {ENOUGH}{more}"
         ))
+    }
+
+    fn unlike_samples(&self) -> Option<String> {
+        let Band { low, median, high } = self.rms_height;
+        (low < median / UNLIKE || high > UNLIKE * median).then(|| {
+            let [low, high] = [low, high].map(|height| format(height, Dimension::Length));
+            format!(
+                "the rms heights of the samples go from {low} to {high} (quantiles 0.16 and 0.84): they are of different surfaces, and their median is \
+                 the law of none"
+            )
+        })
     }
 
     fn few_cells(&self) -> Option<String> {

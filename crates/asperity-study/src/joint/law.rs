@@ -100,7 +100,7 @@ pub struct Law {
     pub modulus: Pascal,
     /// Rows of the theories at each pressure, of the sample in the middle by its rms height.
     pub theories: Vec<JointRecord>,
-    /// Side of a square with the area of a sample.
+    /// Side of a square with the area of the smallest sample.
     pub side: Metre,
     /// Share of the gas in the conductance under the least pressure, the median.
     pub gas_share: f64,
@@ -145,6 +145,10 @@ impl Sample {
             conductance: self.conductances.iter().find(|row| row.step == Some(point.point)),
             flow: [Axis::X, Axis::Y].map(|axis| along(&self.flows, axis, point.point)),
         })
+    }
+
+    fn side(&self) -> Metre {
+        (self.points[0].load / self.points[0].mean_pressure).sqrt()
     }
 
     fn damaged(&self) -> Error {
@@ -201,7 +205,7 @@ impl Law {
             ));
         }
         let yields = samples.iter().flat_map(|sample| &sample.points).any(yields);
-        let warnings: Vec<Vec<String>> = samples.iter().map(|sample| sample.warnings.clone()).collect();
+        let warnings: Vec<&[String]> = samples.iter().map(|sample| sample.warnings.as_slice()).collect();
         let found =
             |index: usize| samples.iter().map(|sample| sample.found(index)).collect::<Result<Vec<_>>>();
         let found = (0..pressures.len()).map(found).collect::<Result<Vec<_>>>()?;
@@ -232,7 +236,7 @@ impl Law {
             checks: checks(&found),
             theories: found.iter().map(|found| found[middle].joint.clone()).collect(),
             modulus: found[0][0].joint.modulus,
-            side: (first.points[0].load / first.points[0].mean_pressure).sqrt(),
+            side: samples.iter().map(Sample::side).fold(f64::INFINITY, f64::min),
             pressures,
             quantities,
             datum: 0.0,

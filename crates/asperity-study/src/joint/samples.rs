@@ -59,11 +59,16 @@ pub fn samples(path: &Path, clients: &[Client]) -> Result<Study> {
             patches[0] * patches[1]
         }
         Some(JointLaw { ref files, .. }) if !files.is_empty() => {
-            let (Some((table, _)), None) = (measured().next(), measured().nth(1)) else {
+            let (Some((table, topography)), None) = (measured().next(), measured().nth(1)) else {
                 let message =
                     "files are samples of the one measured body: this case has none, or two of them";
                 return refuse("joint.files", message, "give `file` in the topography of one of the bodies");
             };
+            for file in files {
+                let folder = path.parent().unwrap_or(Path::new(""));
+                samples_in_file(&folder.join(file), &topography.source)
+                    .map_err(|error| case.error_at("joint.files", error.to_string(), error.hint()))?;
+            }
             let names = files.iter().map(|file| Value::String(file.to_string_lossy().into_owned()));
             keys.push((format!("{table}.file"), names.collect()));
             files.len()

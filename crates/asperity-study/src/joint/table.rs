@@ -9,7 +9,7 @@ use asperity_base::error::Result;
 
 impl Law {
     /// Writes the law as CSV. A row has the pressure, the closure of the median, and the median, the lower and the upper edge
-    /// of each quantity. The cell of an unknown value is empty.
+    /// of each quantity. Unknown values leave their cells empty.
     pub fn csv(&self) -> String {
         let head = |name: &str, unit: &str| {
             if unit.is_empty() { name.to_owned() } else { format!("{name} ({unit})") }

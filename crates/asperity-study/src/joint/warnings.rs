@@ -23,11 +23,11 @@ pub(super) fn left_out(case: &Case, yields: bool) -> Vec<String> {
 }
 
 /// Brings the warnings of the samples together: each is told once, with the number of samples that have it.
-pub(super) fn of_samples(warnings: &[Vec<String>]) -> Vec<String> {
+pub(super) fn of_samples(warnings: &[&[String]]) -> Vec<String> {
     let letters =
         |text: &str| text.chars().filter(|c| c.is_alphabetic()).take(SAME_LETTERS).collect::<String>();
     let mut found: Vec<(String, &str, usize)> = Vec::new();
-    for warning in warnings.iter().flatten() {
+    for warning in warnings.iter().copied().flatten() {
         let key = letters(warning);
         match found.iter_mut().find(|(known, ..)| *known == key) {
             Some((_, _, count)) => *count += 1,
@@ -53,6 +53,7 @@ mod tests {
             of(&["the mesh has 5 cells"]),
             Vec::new(),
         ];
+        let warnings = warnings.each_ref().map(Vec::as_slice);
         assert_eq!(
             of_samples(&warnings),
             ["2 of 3 samples: the mesh has 4.8 cells", "1 of 3 samples: point 3: it is hot"]

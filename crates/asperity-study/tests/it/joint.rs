@@ -318,4 +318,18 @@ fn files_are_samples() {
     assert!(told[1].contains("two.csv") && told[1].contains("upper.topography.seed = 1000007"), "{told:?}");
     let law = law(folder.path(), &text).unwrap();
     assert_eq!((law.samples, law.missing), (2, 0));
+    assert!(!law.doubts().join("\n").contains("different surfaces"));
+    // A file that is not there is told before anything is computed, and one of another surface with the law.
+    fs::write(&path, text.replace("\"two.csv\"", "\"three.csv\"")).unwrap();
+    let error = samples(&path, &[]).map(|study| study.len()).unwrap_err();
+    assert!(matches!(&error, Error::Case(error) if error.key == "joint.files"), "{error}");
+    let smooth = vec![["0.1"; 32].join(","); 31].join("\n") + "\n" + &["0"; 32].join(",");
+    fs::write(folder.path().join("three.csv"), smooth).unwrap();
+    fs::remove_dir_all(folder.path().join("faces-joint")).unwrap();
+    let law = self::law(
+        folder.path(),
+        &text.replace("\"two.csv\"", "\"three.csv\"").replace("sq = \"50 nm\"", "sq = \"1 nm\""),
+    )
+    .unwrap();
+    assert!(law.doubts().join("\n").contains("different surfaces"), "{:?}", law.rms_height);
 }

@@ -185,8 +185,8 @@ mod tests {
         assert_relative_eq!(found, expected, max_relative = 1e-6);
     }
 
-    /// Cells at rest under a rough wall that moves over them: at each time the squeeze and both moving walls drive a pressure
-    /// of its own, and the mean flux over time through one section at rest is U (ḡ + Φ)/2. Order 2.
+    /// A rough wall moves over cells at rest. Its motion and the change of the gap cause a new pressure at each time. The mean
+    /// flux over time through a section at rest is U (ḡ + Φ)/2, to second order.
     #[test]
     fn a_moving_wall_carries_as_much_through_a_section_at_rest() {
         let gap = |x: f64, y: f64| {

@@ -31,7 +31,7 @@ pub struct JointLaw {
 }
 
 fn files(value: &dyn Value, _: &Key) -> Result<Vec<PathBuf>> {
-    list(value, "a list of file names such as [\"one.npy\", \"two.npy\"]", |item| {
-        item.text().map(PathBuf::from)
-    })
+    const EXPECTED: &str = "a list of file names such as [\"one.npy\", \"two.npy\"]";
+    let files = list(value, EXPECTED, |item| item.text().map(PathBuf::from))?;
+    if files.is_empty() { Err(value.unexpected(EXPECTED, None)) } else { Ok(files) }
 }
