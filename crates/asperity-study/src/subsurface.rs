@@ -11,7 +11,7 @@
 
 use std::path::Path;
 
-use ndarray::Axis;
+use ndarray::{Array1, Array2, Axis};
 use serde::{Deserialize, Serialize};
 
 use super::case::{Case, Side};
@@ -28,7 +28,7 @@ use asperity_contact::operator::Boundary;
 use asperity_contact::plasticity::{Layers, PlasticState, residual_below};
 use asperity_contact::stress::{Component, Stress};
 use asperity_contact::subsurface::{
-    Extreme, LayerStress, LayeredStress, Plane, Subsurface, Tractions, von_mises,
+    Extreme, LayerStress, LayeredStress, Maximum, Plane, Subsurface, Survey, Tractions, von_mises,
 };
 
 /// Requested points on the grid of one contact.
@@ -89,6 +89,15 @@ columns! {
         #[serde(skip_serializing_if = "Option::is_none")]
         pub max_interface_tension: Option<Pascal>,
     }
+}
+
+/// The stress on a plane at the requested points.
+struct Cut {
+    /// The cell along y of the section.
+    row: usize,
+    section: [Array1<f64>; 6],
+    columns: Vec<Stress>,
+    volume: Option<Array2<f32>>,
 }
 
 impl Plan {
@@ -209,8 +218,23 @@ impl Plan {
         if self.material.is_layered() {
             body = body.with_layers(Stack::new(&self.material));
         }
-        let most = body.maximum(&self.depths);
-        let layers = body.layers(&self.depths);
+        // The section goes through the most stressed point of all, mostly that of each plane.
+        let look = |plane: Plane, most: &Maximum| {
+            let row = self.section.unwrap_or(most.von_mises.cell[1]);
+            Cut {
+                row,
+                section: plane.row(row),
+                columns: self.columns.iter().map(|cell| plane.stress(*cell)).collect(),
+                volume: self.volume.then(|| plane.von_mises().mapv(|stress| stress as f32)),
+            }
+        };
+        let Survey { maximum: most, layers, planes: mut cuts, .. } = body.survey(&self.depths, look);
+        let row = self.section.unwrap_or(most.von_mises.cell[1]);
+        let elsewhere: Vec<usize> = (0..cuts.len()).filter(|k| cuts[*k].row != row).collect();
+        let depths: Vec<Metre> = elsewhere.iter().map(|k| self.depths[*k]).collect();
+        for (k, section) in elsewhere.into_iter().zip(body.planes(&depths, |plane| plane.row(row))) {
+            cuts[k].section = section;
+        }
         let largest = |of: fn(&LayerStress) -> Pascal| layers.iter().skip(1).map(of).reduce(f64::max);
         let record = SubsurfaceRecord {
             pass,
@@ -223,21 +247,13 @@ impl Plan {
             max_interface_shear: largest(|layer| layer.shear),
             max_interface_tension: largest(|layer| layer.pull.max(0.0)),
         };
-        let row = self.section.unwrap_or(most.von_mises.cell[1]);
         self.describe(&mut file, &record, row);
         describe_layers(&mut file, &layers);
         for (k, plane) in body.planes(&self.planes, |plane| plane.von_mises()).iter().enumerate() {
             file.add_field(&format!("von_mises_{:02}", k + 1), "Pa", &self.grid, self.corner, plane);
         }
-        let look = |plane: Plane| {
-            let section = plane.stress.each_ref().map(|component| component.column(row).to_owned());
-            let columns: Vec<Stress> = self.columns.iter().map(|cell| plane.stress(*cell)).collect();
-            let volume = self.volume.then(|| plane.von_mises().mapv(|stress| stress as f32));
-            (section, columns, volume)
-        };
-        let planes = body.planes(&self.depths, look);
         if self.volume {
-            let planes: Vec<_> = planes.iter().filter_map(|(_, _, plane)| plane.clone()).collect();
+            let planes: Vec<_> = cuts.iter().filter_map(|cut| cut.volume.clone()).collect();
             let [dx, dy] = self.grid.pitch;
             let origin = [0, 1].map(|axis| self.corner[axis] + self.grid.centre(axis, 0));
             let pitch = [dx, dy, self.spacing()];
@@ -245,18 +261,16 @@ impl Plan {
         }
         let section = |component: Component| {
             let mut field = Field::zeros([self.grid.shape[0], self.depths.len()]);
-            for (mut column, (section, ..)) in field.axis_iter_mut(Axis(1)).zip(&planes) {
-                column.assign(&section[component as usize]);
+            for (mut column, cut) in field.axis_iter_mut(Axis(1)).zip(&cuts) {
+                column.assign(&cut.section[component as usize]);
             }
             field
         };
         self.add_section(&mut file, &Component::ALL.map(section));
         for k in 0..self.columns.len() {
             for component in Component::ALL {
-                let values: Vec<f64> = planes
-                    .iter()
-                    .map(|(_, columns, _)| columns[k].components()[component as usize])
-                    .collect();
+                let values: Vec<f64> =
+                    cuts.iter().map(|cut| cut.columns[k].components()[component as usize]).collect();
                 let name = format!("column_{:02}_{}", k + 1, component.name());
                 file.add_series(&name, "Pa", "z", self.spacing(), 0.0, &values);
             }

@@ -145,11 +145,11 @@ impl Watch for Display {
         let Progress { pass, passes, trial, solved, positions, load, together, .. } = *progress;
         let (place, part, steps) = if self.step == "pass" {
             let place = match together {
-                Some(way) => format!("sample of {positions} positions, {:.0} %", 100.0 * way),
+                Some(way) => format!("sample of the positions, {:.0} %", 100.0 * way),
                 None => format!("approach {trial}, position {solved}/{positions}"),
             };
             let part = solved as f64 / positions as f64;
-            // The bar shows the passes; each approach of a pass begins it anew.
+            // The bar shows the passes. Within a pass it starts again with each approach.
             (format!("pass {pass}/{passes}, {place}"), (pass - 1) as f64 + 0.99 * part, (pass - 1, passes))
         } else {
             self.finish();

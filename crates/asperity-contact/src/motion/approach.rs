@@ -25,16 +25,15 @@ const MAX_UNCERTAIN_TRIALS: usize = 8;
 /// Number of successive trials that do not halve the least error of the load, after which the bracket is
 /// bisected: the secant then crosses a jump.
 const MAX_STALLED_TRIALS: usize = 3;
-/// Relative change of the load between two trials below which their slope is noise, in the larger of their
-/// residuals.
+/// Relative change of the load between two trials below which their slope is noise, as a multiple of the larger
+/// of their residuals.
 const SLOPE_UNCERTAINTY: f64 = 0.02;
-/// Residual of a rough trial, as a fraction of the error of the load before it. A larger one may be met by the
-/// contacts before, whose load tells nothing.
+/// Residual of a rough trial, as a fraction of the load error of the trial before. The contacts of that trial may
+/// already meet a larger residual. They would then be returned unchanged, with a wrong load.
 const TRIAL_PROGRESS: f64 = 0.1;
 /// Relative error of the slope of a guess.
 const GUESS_SLOPE_ERROR: f64 = 0.015;
-/// Relative error of the slope between two trials, as a multiple of the error of the load in the first of
-/// them.
+/// Relative error of the slope between two trials, as a multiple of the load error of the first one.
 const SECANT_ERROR: f64 = 4.0;
 
 /// A search for the approach with a given mean load.
@@ -178,16 +177,16 @@ impl Search {
         Err(Error::LoadNotReached { load: self.load, below, trials: MAX_TRIALS, approach })
     }
 
-    /// Returns the residual for a trial: as large as an `error`, unless the load that is `expected` of it has an error
-    /// within the tolerance.
+    /// Returns the residual for a trial: the required one if the `expected` error of its load is within the
+    /// tolerance, otherwise a `rough` one within limits.
     ///
     /// The mean load is about a thousand times more accurate than the residual. A trial that is expected to
     /// be within the tolerance is treated as the last.
-    fn residual_for(&self, error: f64, expected: f64) -> f64 {
+    fn residual_for(&self, rough: f64, expected: f64) -> f64 {
         if expected <= self.tolerance {
             return self.residual;
         }
-        error.clamp(self.residual, self.roughest.max(self.residual))
+        rough.clamp(self.residual, self.roughest.max(self.residual))
     }
 }
 

@@ -1,5 +1,5 @@
-//! First guess of the approach of a pass from a sample of its positions. They are solved as one problem, with
-//! the approach as the multiplier of their mean load.
+//! First guess of the approach of a pass from a sample of its positions. The sample is solved as one problem,
+//! with the approach as the multiplier of its mean load.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -25,7 +25,7 @@ const MAX_CELLS: usize = 40_000_000;
 /// Memory per cell while all sampled positions are stored at once, bytes.
 const BYTES_PER_CELL: f64 = 60.0;
 
-/// Number of positions that are sampled, if a pass has so many.
+/// Least number of sampled positions. A pass with fewer positions is sampled as a whole.
 const SAMPLED: usize = 16;
 /// Relative increase of the load between the two solutions of the sample.
 const LOAD_INCREASE: f64 = 0.02;
@@ -37,8 +37,8 @@ fn sampled(count: usize) -> impl Iterator<Item = usize> {
 }
 
 /// Returns the memory, bytes, to solve a sample of the positions of a pass together, each with `columns`
-/// columns. `None` if there is no sample: it has too many cells, the user chose a method, no mean load is
-/// prescribed, or the geometry changes from one position to the next.
+/// columns. Returns `None` if the pass has no sample, because it would have too many cells, the user chose a
+/// method, no mean load is prescribed, or the geometry changes from one position to the next.
 pub fn memory_together(
     motion: &Motion,
     method: Method,
@@ -53,16 +53,17 @@ pub fn memory_together(
         .then_some(BYTES_PER_CELL * cells as f64)
 }
 
-/// Fraction of the first residual below which the iteration goes even from a good start. The errors of such
-/// a start all have the same sign, and so does that of its approach.
+/// Largest residual at the end, as a fraction of the first one, which may be small from a good start. The errors
+/// of such a start all have the same sign, and they shift the approach.
 const MIN_PROGRESS: f64 = 0.1;
 
 impl Solver<'_> {
-    /// Guesses the approach at which the mean load of the pass is `load`, and the slope there, from a sample
-    /// of its positions. They are solved together, roughly, under two mean loads. Returns the guess, and the
-    /// contacts at the sampled positions among empty ones at the others. Returns none if the sample cannot
-    /// carry the loads, or does not converge. A sample of all positions is solved under one load, and needs no
-    /// slope to be near the approach.
+    /// Guesses the approach at which the mean load of the pass is `load`, and the slope there. A sample of the
+    /// positions is solved together, roughly, under two mean loads. If it contains all positions, one load is
+    /// enough: the approach of the pass is near, and the search hardly needs a slope.
+    ///
+    /// Returns the guess and the contact at each position, which has no pressure outside the sample. Returns
+    /// `None` if the sample cannot carry the loads, or if it does not converge.
     ///
     /// # Errors
     /// [`Error::Interrupted`].
@@ -97,10 +98,9 @@ impl Solver<'_> {
             };
             let start = facing.iter().zip(&first.pressures).map(field).collect();
             let further = self.solve_together(&facing, more, Some(start), params)?;
-            let slope = (1.0 + LOAD_INCREASE).ln() / (further.approach - first.approach);
-            let slope = if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / scale };
+            let guess = Guess::between(first.approach, further.approach, 1.0 + LOAD_INCREASE, scale);
             let stats = first.stats.and(&further.stats);
-            Ok((Guess::new(first.approach, slope), JointSolution { stats, ..further }))
+            Ok((guess, JointSolution { stats, ..further }))
         });
         let (guess, JointSolution { approach, pressures, stats }) = match solved {
             Ok(solved) => solved,
@@ -119,8 +119,8 @@ impl Solver<'_> {
         Ok(Some((guess, contacts)))
     }
 
-    /// Solves sites roughly at the common approach at which their loads add up to `total`, near the pressures
-    /// of the `start`, if there are any.
+    /// Solves the `sites` roughly at the common approach at which their loads add up to `total`. The `start`
+    /// holds a pressure near the solution for each site, if known.
     ///
     /// # Errors
     /// [`Error::NotConverged`], [`Error::Interrupted`].

@@ -44,17 +44,24 @@ pub struct Guess {
     /// Fraction of this change that the next pass is expected to repeat, 0 … 1: the fraction of the change
     /// before it that the last pass has repeated.
     pub persistence: f64,
-    /// Expected relative error of the mean load at the guess: that of the guess before.
+    /// Expected relative error of the mean load at the guess, equal to that of the guess before.
     pub error: f64,
 }
 
 impl Guess {
-    /// Creates a guess of the first pass, with an unknown error.
+    /// Creates a guess without a pass before it, whose error is unknown.
     pub(super) fn new(approach: Metre, slope: f64) -> Self {
         Self { approach, slope, change: 0.0, persistence: 0.0, error: 1.0 }
     }
 
-    /// Adds the change since the guess `before`, if there is one, `passes` passes of the motion earlier.
+    /// Creates a guess from the approaches under two mean loads with the ratio `more`. Over `scale` the load
+    /// changes by a factor of about e if the approaches tell no slope.
+    pub(super) fn between(approach: Metre, further: Metre, more: f64, scale: Metre) -> Self {
+        let slope = more.ln() / (further - approach);
+        Self::new(approach, if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / scale })
+    }
+
+    /// Adds the change since the guess `before`, which is `passes` passes of the motion earlier.
     fn after(self, before: Option<&Self>, passes: f64) -> Self {
         let Some(before) = before else { return self };
         let change = (self.approach - before.approach) / passes;
@@ -114,8 +121,9 @@ impl WarmStart {
         self.extrapolation.as_ref().map_or(1.0, |last| last.passes as f64)
     }
 
-    /// Returns the guess for the next pass, which is to meet its load to this `tolerance`; `None` before the first
-    /// pass. It is the last approach if that is expected to be near enough, since the contacts at it are known.
+    /// Returns the guess for the next pass, whose load has this relative `tolerance`; `None` before the first
+    /// pass. If the load at the last approach is expected to be near enough, the guess is that approach: its
+    /// contacts are known.
     pub(super) fn guess(&self, tolerance: f64) -> Option<Guess> {
         let guess = self.guess?;
         let change = guess.persistence * self.extrapolated_passes() * guess.change;
@@ -228,13 +236,13 @@ impl WarmStart {
     }
 }
 
-/// Largest error of the load expected at the last approach, as a fraction of the tolerance, for the next pass to begin
-/// there.
+/// Largest load error expected at the last approach at which the next pass begins there, as a fraction of the
+/// tolerance.
 const NEAR: f64 = 0.5;
 
-/// The extrapolated pressure of a cell is at least this fraction of the last one,
+/// Least extrapolated pressure of a cell, as a fraction of the last one.
 const LEAST: f64 = 0.01;
-/// and at most this multiple of it.
+/// Largest extrapolated pressure of a cell, as a multiple of the last one.
 const MOST: f64 = 2.0;
 
 impl LoadedCells {

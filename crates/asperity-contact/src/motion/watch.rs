@@ -22,8 +22,8 @@ pub struct Progress {
     pub positions: usize,
     /// Load at the position solved last.
     pub load: Newton,
-    /// Progress, 0 to 1, in the logarithm of the residual, if a sample of the positions is solved together or
-    /// if a static contact is being solved.
+    /// Progress, 0 to 1, in the logarithm of the residual, while a sample of the positions is solved together or
+    /// a static contact is solved.
     pub together: Option<f64>,
 }
 

@@ -1,8 +1,6 @@
 //! Stress in the layers of a body, and at their faces.
 
-use crate::kernel::Stack;
-use crate::math::parallel;
-use crate::subsurface::{Extreme, Plane, Subsurface};
+use crate::subsurface::{Extreme, Plane};
 use crate::units::{Metre, Pascal};
 
 /// The largest stresses in a layer of a body, or in the body below its layers.
@@ -17,55 +15,65 @@ pub struct LayerStress {
     pub tension: Pascal,
     /// Largest principal tension at its lower face; `None` for the body below the layers.
     pub tension_below: Option<Pascal>,
-    /// Largest shear traction on its upper face.
+    /// Largest shear traction on its upper face. At an interface it is that of the layer above, also on a rigid body.
     pub shear: Pascal,
     /// Largest tension across its upper face, > 0 if it can come off.
     pub pull: Pascal,
 }
 
-impl Subsurface {
-    /// Returns the planes at both sides of the interfaces down to a depth.
-    pub(super) fn faces(&self, to: Metre) -> Vec<Plane> {
-        let tops = self.stack.as_ref().map_or_else(Vec::new, Stack::interfaces);
-        let inside = tops.iter().enumerate().skip(1).filter(|(_, top)| **top <= to);
-        parallel::tasks(inside.flat_map(|(n, top)| [(n - 1, *top), (n, *top)]), |(n, depth)| {
-            self.plane_in(n, depth)
-        })
-    }
+/// The largest stresses on a plane in a layer.
+pub(super) struct InLayer {
+    pub(super) layer: usize,
+    pub(super) depth: Metre,
+    pub(super) von_mises: Extreme,
+    /// `None` between the faces of the layer.
+    pub(super) face: Option<Face>,
+}
 
-    /// Returns the largest stresses in each layer, and in the body below them, at both faces and at those of the `depths`
-    /// that lie in it. Layers that begin below the last depth are left out.
-    ///
-    /// # Panics
-    /// If there are no depths.
-    pub fn layers(&self, depths: &[Metre]) -> Vec<LayerStress> {
-        let last = depths.last().expect("there are depths");
-        let Some(stack) = &self.stack else { return Vec::new() };
-        let tops = stack.interfaces();
-        let count = tops.iter().take_while(|top| *top <= last).count();
-        parallel::tasks(0..count, |n| {
-            let bottom = tops.get(n + 1).copied();
-            let is_inside =
-                |depth: &&Metre| **depth > tops[n] && bottom.is_none_or(|bottom| **depth < bottom);
-            let top = self.plane_in(n, tops[n]);
-            let mut von_mises = top.maximum().von_mises;
-            let mut include = |plane: &Plane| {
-                let found = plane.maximum().von_mises;
-                if found.value > von_mises.value {
-                    von_mises = found;
-                }
-            };
-            depths.iter().filter(is_inside).for_each(|depth| include(&self.plane_in(n, *depth)));
-            let lower = bottom.map(|bottom| self.plane_in(n, bottom));
-            lower.iter().for_each(include);
-            LayerStress {
-                depth: tops[n],
-                von_mises,
-                tension: top.largest(|stress| stress.principal()[0]),
-                tension_below: lower.map(|plane| plane.largest(|stress| stress.principal()[0])),
-                shear: top.largest(|stress| stress.xz.hypot(stress.yz)),
-                pull: top.largest(|stress| stress.zz),
-            }
-        })
+/// The largest stresses on a face of a layer.
+#[derive(Clone, Copy)]
+pub(super) struct Face {
+    tension: Pascal,
+    shear: Pascal,
+    pull: Pascal,
+}
+
+impl Face {
+    pub(super) fn new(plane: &Plane) -> Self {
+        Self {
+            tension: plane.largest(|stress| stress.principal()[0]),
+            shear: plane.largest(|stress| stress.xz.hypot(stress.yz)),
+            pull: plane.largest(|stress| stress.zz),
+        }
     }
+}
+
+/// Returns the faces of the layers that begin at the depths `tops` down to a depth: the layer and the depth of each.
+pub(super) fn faces(tops: &[Metre], to: Metre) -> impl Iterator<Item = (usize, Metre)> {
+    let reached = tops.iter().enumerate().take_while(move |(_, top)| **top <= to);
+    reached
+        .flat_map(|(n, top)| [Some(top), tops.get(n + 1)].into_iter().flatten().map(move |depth| (n, *depth)))
+}
+
+/// Returns the largest stresses in each layer down to a depth from those on `planes`, ascending, among which are its faces.
+pub(super) fn by_layer(tops: &[Metre], to: Metre, planes: &[InLayer]) -> Vec<LayerStress> {
+    let reached = tops.iter().enumerate().take_while(|(_, top)| **top <= to);
+    let layers = reached.map(|(n, &depth)| {
+        let inside = planes.iter().filter(|plane| plane.layer == n);
+        let face = |layer: usize, at: Metre| {
+            planes.iter().find(|plane| plane.layer == layer && plane.depth == at)?.face
+        };
+        let upper = face(n, depth).expect("the upper face of a layer");
+        // A rigid body has no stress, but the layer on it has.
+        let Face { shear, pull, .. } = face(n.saturating_sub(1), depth).expect("the lower face of a layer");
+        LayerStress {
+            depth,
+            von_mises: inside.map(|plane| plane.von_mises).reduce(Extreme::or).expect("a face"),
+            tension: upper.tension,
+            tension_below: tops.get(n + 1).and_then(|bottom| face(n, *bottom)).map(|face| face.tension),
+            shear,
+            pull,
+        }
+    });
+    layers.collect()
 }

@@ -1,8 +1,8 @@
 //! Stress under the surface of a body, plane by plane.
 //!
 //! z points into the body, and stress is positive in tension. A [`Subsurface`] stores the transforms of the
-//! tractions on the surface. [`Subsurface::plane`] returns the stress at one depth, [`Subsurface::maximum`]
-//! the largest over many depths.
+//! tractions on the surface. [`Subsurface::plane`] returns the stress at one depth, [`Subsurface::survey`]
+//! the largest over many depths, in the body and in each of its layers.
 //!
 //! ```
 //! use asperity_contact::reference::HertzSphere;
@@ -30,7 +30,7 @@ mod response;
 
 pub use layered::LayeredStress;
 pub use layers::LayerStress;
-pub use maximum::{Extreme, Maximum};
+pub use maximum::{Extreme, Maximum, Survey};
 pub use response::StressAtDepth;
 
 use asperity_transforms::num_complex::Complex64;
@@ -146,9 +146,13 @@ impl Subsurface {
 
     /// Returns the stress at `depth` ≥ 0; at 0 its limit from inside the body, at an interface that from below.
     pub fn plane(&self, depth: Metre) -> Plane {
-        let layer = self.stack.as_ref().map(Stack::interfaces);
-        let layer = layer.and_then(|tops| tops.iter().rposition(|top| *top <= depth));
-        self.plane_in(layer.unwrap_or(0), depth)
+        self.plane_in(self.layer_at(depth), depth)
+    }
+
+    /// Returns the number of the layer at a depth, at an interface the one below.
+    fn layer_at(&self, depth: Metre) -> usize {
+        let tops = self.stack.as_ref().map(Stack::interfaces);
+        tops.and_then(|tops| tops.iter().rposition(|top| *top <= depth)).unwrap_or(0)
     }
 
     /// Returns the stress at a `depth` in a layer or at its faces; the body below all layers is the last one.
@@ -376,6 +380,11 @@ impl Plane {
     /// Returns the stress at a cell.
     pub fn stress(&self, cell: [usize; 2]) -> Stress {
         Stress::from_components(self.stress.each_ref().map(|component| component[cell]))
+    }
+
+    /// Returns the components on the cells of a row along x, the `row`th in y.
+    pub fn row(&self, row: usize) -> [Array1<f64>; 6] {
+        self.stress.each_ref().map(|component| component.column(row).to_owned())
     }
 
     /// Returns the largest of a number of the stress over all cells.
@@ -675,7 +684,7 @@ mod tests {
             }
             let depths = [0.0, 0.5, 1.0, 1.5, 2.0];
             let most = plain.maximum(&[0.0, 0.8, 1.6, 0.5, 1.0, 1.5, 2.0]).von_mises;
-            let layers = layered.layers(&depths);
+            let layers = layered.survey(&depths, |_, _| ()).layers;
             assert_eq!(layers.iter().map(|layer| layer.depth).collect::<Vec<_>>(), [0.0, 0.8, 1.6]);
             let found = layers.iter().map(|layer| layer.von_mises.value).fold(0.0, f64::max);
             assert_relative_eq!(found, most.value, max_relative = 10.0 * tolerance);
@@ -700,11 +709,29 @@ mod tests {
                 assert_relative_eq!(*above, *below, epsilon = 1e-12);
             }
         }
-        let layers = body.layers(&[0.0, 0.25, 0.75, 1.5]);
+        let layers = body.survey(&[0.0, 0.25, 0.75, 1.5], |_, _| ()).layers;
         let [layer, base] = layers.as_slice() else { panic!("{layers:?}") };
         // Below the contact the layer bends: its lower face is pulled harder than anything on its surface.
         assert!(layer.tension_below.unwrap() > layer.tension.max(0.0), "{layer:?}");
         assert!(base.tension_below.is_none() && base.shear > 0.0 && layer.shear < 1e-10, "{layers:?}");
         assert!(layer.von_mises.value > base.von_mises.value);
+    }
+
+    #[test]
+    fn a_rigid_body_below_a_layer_has_no_stress_but_takes_the_tractions_of_the_layer() {
+        let grid = Grid::new([10, 9], [0.5, 0.7]).unwrap();
+        let tractions = waves_of_tractions(&grid);
+        let rigid = Material::elastic(f64::INFINITY, 0.0).unwrap();
+        let stack = Stack::new(&rigid.layered(vec![Coating::new(0.8, 2.0, 0.3).unwrap()]));
+        for boundary in [Boundary::PERIODIC, Boundary::FREE] {
+            let body = Subsurface::new(grid, boundary, 0.0, &tractions).with_layers(stack.clone());
+            assert!(body.plane(1.0).stress.iter().flatten().all(|stress| *stress == 0.0));
+            let layers = body.survey(&[0.0, 0.5, 1.0], |_, _| ()).layers;
+            let lower = body.plane_in(0, 0.8);
+            assert_eq!(layers[1].shear, lower.largest(|stress| stress.xz.hypot(stress.yz)));
+            assert_eq!(layers[1].pull, lower.largest(|stress| stress.zz));
+            assert_eq!((layers[1].von_mises.value, layers[1].von_mises.depth), (0.0, 0.8));
+            assert!(layers[1].shear > 0.1, "{layers:?}");
+        }
     }
 }

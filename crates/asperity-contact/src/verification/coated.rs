@@ -48,12 +48,11 @@ pub(super) const HARMONICS: Case = Case {
             let at =
                 |base, thickness, layer| Ok(coated(base, thickness, layer)?.harmonic_displacement(0.0, 1.0));
             let thin = 1.0 / n as f64;
-            let [_, nu] = layer;
             Ok([
                 relative(at(layer, thin, layer)?, half_space(layer, 1.0)),
                 relative(at(base, n as f64, layer)?, half_space(layer, 1.0)),
                 relative(at(base, thin, layer)?, half_space(base, 1.0)),
-                relative(at([RIGID, 0.0], thin, layer)?, thin * (1.0 + nu) * (1.0 - 2.0 * nu) / (1.0 - nu)),
+                relative(at([RIGID, 0.0], thin, layer)?, thin / foundation(layer[0], layer[1])),
                 relative(at([RIGID, 0.0], thin, [1.0, 0.5])?, thin.powi(3)),
             ])
         })
@@ -129,35 +128,41 @@ pub(super) const FOUNDATION: Case = Case {
     source: "Johnson (1985), section 5.8",
     checks: || {
         let (young, poisson) = (1.0, 0.3);
-        let foundation = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
         let checks = [
             ("peak pressure", Expected::Order { order: 1.5..=2.2, finest: 1e-3 }),
             ("approach", Expected::Order { order: 1.4..=2.2, finest: 1e-3 }),
         ];
         thin_layers(checks, &[[1.0, young, poisson]], |thickness| {
-            let peak = foundation / (2.0 * RADIUS * thickness);
+            let peak = foundation(young, poisson) / (2.0 * RADIUS * thickness);
             [0.5 * PI * peak, peak, 0.5 / RADIUS]
         })
     },
 };
+
+/// Modulus of a foundation of a compressible material that cannot widen, M = E(1 − ν)/(1 + ν)(1 − 2ν).
+fn foundation(young: Pascal, poisson: f64) -> Pascal {
+    young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson))
+}
+
+/// Two layers: shares of the thickness, moduli and Poisson's ratios, from the surface down.
+const TWO: [[f64; 3]; 2] = [[0.4, 1.0, 0.3], [0.6, 3.0, 0.2]];
+
+/// Computes the compliance of [`TWO`] layers in series over their thickness, from a modulus of E and ν.
+fn in_series(modulus: fn(Pascal, f64) -> Pascal) -> f64 {
+    TWO.iter().map(|[share, young, poisson]| share / modulus(*young, *poisson)).sum()
+}
 
 /// Two compressible layers thin compared with the contact, on a rigid body: foundations in series, t₁/M₁ + t₂/M₂.
 pub(super) const SERIES: Case = Case {
     name: "Layered body: two thin layers on a rigid body",
     source: "Johnson (1985), section 5.8",
     checks: || {
-        let layers = [[0.4, 1.0, 0.3], [0.6, 3.0, 0.2]];
-        let compliance: f64 = layers
-            .iter()
-            .map(|[share, young, poisson]| {
-                share * (1.0 + poisson) * (1.0 - 2.0 * poisson) / (young * (1.0 - poisson))
-            })
-            .sum();
+        let compliance = in_series(foundation);
         let checks = [
             ("peak pressure", Expected::Order { order: 1.5..=2.2, finest: 1e-3 }),
             ("approach", Expected::Order { order: 1.4..=2.4, finest: 1e-3 }),
         ];
-        thin_layers(checks, &layers, |thickness| {
+        thin_layers(checks, &TWO, |thickness| {
             let peak = (2.0 * RADIUS * thickness * compliance).recip();
             [0.5 * PI * peak, peak, 0.5 / RADIUS]
         })
@@ -170,18 +175,13 @@ pub(super) const SHEARED: Case = Case {
     name: "Layered body: a sphere that sticks to two thin layers",
     source: "Johnson (1985), section 5.8",
     checks: || {
-        let layers = [[0.4, 1.0, 0.3], [0.6, 3.0, 0.2]];
-        let sum = |of: fn(f64, f64) -> f64| -> f64 {
-            layers.iter().map(|[share, young, poisson]| share * of(*young, *poisson)).sum()
-        };
-        let normal = sum(|young, nu| (1.0 + nu) * (1.0 - 2.0 * nu) / (young * (1.0 - nu)));
-        let shear = sum(|young, nu| 2.0 * (1.0 + nu) / young);
+        let [normal, shear] = [in_series(foundation), in_series(|young, nu| young / (2.0 * (1.0 + nu)))];
         let checks = [("force", Expected::Order { order: 0.8..=1.3, finest: 0.1 })];
         study("a/t", &[4, 8, 16], checks, |n| {
             const SHIFT: f64 = 1e-3;
             let thickness = 1.0 / n as f64;
             let grid = Grid::new([10 * n; 2], [0.25 * thickness; 2])?;
-            let body = layered([RIGID, 0.0], &of_thickness(&layers, thickness))?;
+            let body = layered([RIGID, 0.0], &of_thickness(&TWO, thickness))?;
             let mut operator = Operators::new(grid, body, Boundary::FREE).coupled_on(grid.shape);
             let loading = Loading {
                 normal: Control::Load(0.25 * PI / (RADIUS * thickness * normal)),

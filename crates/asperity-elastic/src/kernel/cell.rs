@@ -99,8 +99,9 @@ pub(super) fn means_across(
     (0..columns).map(mean).collect()
 }
 
-fn by_corners([x, y]: [f64; 2], [a, b]: [f64; 2], closed: impl Fn(f64, f64) -> f64) -> f64 {
-    closed(x + a, y + b) - closed(x - a, y + b) - closed(x + a, y - b) + closed(x - a, y - b)
+fn by_corners(at: [f64; 2], half: [f64; 2], closed: impl Fn(f64, f64) -> f64) -> f64 {
+    let [one, two, three, four] = corners(at, half).map(|[x, y]| closed(x, y));
+    one - two - three + four
 }
 
 /// Gauss–Legendre.

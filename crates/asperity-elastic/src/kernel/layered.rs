@@ -22,9 +22,9 @@ pub fn response(lower: &Material, upper: &Material) -> Result<SharedResponse> {
     if !lower.is_layered() && !upper.is_layered() {
         return Ok(compliances.into());
     }
-    let couples = LayeredBody::new(lower) != LayeredBody::new(upper);
-    Ok(LayeredPair { bodies: [lower, upper].map(|material| LayeredBody::new(material).into()), couples }
-        .into())
+    let bodies = [lower, upper].map(LayeredBody::new);
+    let couples = bodies[0] != bodies[1];
+    Ok(LayeredPair { bodies: bodies.map(SharedResponse::from), couples }.into())
 }
 
 /// Sum of the displacements of two bodies, each pressed by a rigid one.

@@ -168,6 +168,9 @@ impl Stack {
     pub fn stress(&self, q: f64, layer: usize, depth: Metre) -> WaveStress {
         let elastic = |n: usize| self.layers.get(n).map_or(self.base, |layer| layer.elastic);
         let own = elastic(layer);
+        if own.shear.is_infinite() {
+            return WaveStress { pressure: [0.0; 4], along: [0.0; 4], across: [0.0; 2] };
+        }
         if q == 0.0 {
             let side = -own.poisson / (1.0 - own.poisson);
             return WaveStress {
@@ -194,9 +197,6 @@ impl Stack {
         for n in 0..=layer {
             let is_here = n == layer;
             let Elastic { shear, poisson } = elastic(n);
-            if shear.is_infinite() {
-                return WaveStress { pressure: [0.0; 4], along: [0.0; 4], across: [0.0; 2] };
-            }
             let thickness = self.layers.get(n).map(|layer| layer.thickness);
             let to = if is_here {
                 (depth - top).clamp(0.0, thickness.unwrap_or(Metre::INFINITY))

@@ -25,7 +25,7 @@ pub struct Material {
     pub layers: Vec<Coating>,
 }
 
-const THICK: Beside = Beside::most(Scale::Side, 1.0, "contacts do not feel the body under it");
+const THICK: Beside = Beside::most(Scale::Side, 10.0, "contacts do not feel the body under it");
 
 /// An elastic, isotropic layer of uniform thickness, bonded to a body.
 #[derive(Table, Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -16,7 +16,7 @@ for (const button of document.querySelectorAll(".copy")) {
 
 /** A map that does not change, such as one below the surface. */
 async function showPlane(place) {
-  const { file, title, caption, map, x, down, length, quantity, unit, kind, range, mark, spans } = data.planes[Number(place.dataset.plane)];
+  const { file, title, caption, map, x, down, length, quantity, unit, kind, range, mark, spans, interfaces } = data.planes[Number(place.dataset.plane)];
   await unpack(map);
   const extent = map.shape.map((cells, axis) => cells * map.pitch[axis]);
   new MapView(place, title, file).show({
@@ -24,8 +24,11 @@ async function showPlane(place) {
     images: [{ packed: map, kind, range, corner: [x, 0], told: (v) => written(v, unit) }],
     bar: { range, unit, label: quantity, kind },
     marks: mark ? [mark.at] : [],
-    lines: spans.map(([from, to]) => ({ from: [from, 0], to: [to, 0], colour: "#d55e00", width: 6 })),
-    classes: [...(spans.length ? [["#d55e00", "contact"]] : []), ...(mark ? [["#d02020", mark.what]] : [])],
+    lines: [
+      ...interfaces.map((depth) => ({ from: [x, depth], to: [x + extent[0], depth], colour: "#5a96ff", width: 1.5 })),
+      ...spans.map(([from, to]) => ({ from: [from, 0], to: [to, 0], colour: "#d55e00", width: 6 })),
+    ],
+    classes: [...(spans.length ? [["#d55e00", "contact"]] : []), ...(interfaces.length ? [["#5a96ff", "interface"]] : []), ...(mark ? [["#d02020", mark.what]] : [])],
   });
 }
 

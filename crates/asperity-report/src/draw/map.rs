@@ -48,6 +48,8 @@ pub struct Map<'a> {
     block: Option<(f64, String)>,
     /// Parts of the upper edge, from and to along x, SI.
     spans: (Vec<[f64; 2]>, &'static str),
+    /// Heights of lines across the map, SI.
+    depths: (Vec<f64>, &'static str),
 }
 
 impl<'a> Map<'a> {
@@ -159,6 +161,7 @@ impl<'a> Map<'a> {
             mark: None,
             block: None,
             spans: (Vec::new(), ""),
+            depths: (Vec::new(), ""),
         }
     }
 
@@ -219,6 +222,11 @@ impl<'a> Map<'a> {
         Self { spans: (spans, name), ..self }
     }
 
+    /// The same section with a dashed line across it at each of the `depths`, SI.
+    pub fn with_depths(self, depths: Vec<f64>, name: &'static str) -> Self {
+        Self { depths: (depths, name), ..self }
+    }
+
     /// Width over height of the map as drawn.
     pub(super) fn aspect(&self) -> f64 {
         let [x, y] = self.lengths();
@@ -264,6 +272,9 @@ impl<'a> Map<'a> {
         if !self.spans.0.is_empty() {
             legend.add(Key::Line(SPAN, None), self.spans.1);
         }
+        if !self.depths.0.is_empty() {
+            legend.add(Key::Line(ACROSS, None), self.depths.1);
+        }
         if let Some((_, name)) = &self.block {
             legend.add(Key::Line(BLOCK, None), name.clone());
         }
@@ -291,6 +302,10 @@ impl<'a> Map<'a> {
             if let [Some([from, y]), Some([to, _])] = surface {
                 scene.line(&[[from, y - 1.5], [to, y - 1.5]], SPAN);
             }
+        }
+        for depth in &self.depths.0 {
+            let line: Vec<_> = self.ends[0].iter().filter_map(|x| frame.place([*x, *depth])).collect();
+            scene.line(&line, ACROSS);
         }
         if let Some((size, _)) = &self.block {
             let corners = [[-0.5, -0.5], [size - 0.5, -0.5], [size - 0.5, size - 0.5], [-0.5, size - 0.5]];
@@ -336,6 +351,7 @@ impl<'a> Map<'a> {
 const OUTLINE: Stroke = Stroke { colour: [230, 60, 40], width: 0.5, dashed: false };
 const CONTOUR: Stroke = Stroke { colour: PAPER, width: 0.5, dashed: false };
 const SPAN: Stroke = Stroke { colour: [213, 94, 0], width: 2.4, dashed: false };
+const ACROSS: Stroke = Stroke { colour: [90, 150, 255], width: 1.2, dashed: true };
 const BLOCK: Stroke = Stroke { colour: [213, 94, 0], width: 1.2, dashed: false };
 
 /// Places along an axis, from its beginning in steps of cells.

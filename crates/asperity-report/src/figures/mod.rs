@@ -52,7 +52,9 @@ pub(crate) use sliding::curves as of_sliding;
 pub(crate) use static_contact::{HeightRange, Witness, approach, open_gap, profile as profile_at_rest};
 pub use stored::in_frame_of;
 pub(crate) use stored::{Cap, StoredArray, ends_with_tension};
-pub(crate) use subsurface::{columns as stress_columns, contact as contact_of_section, on_section};
+pub(crate) use subsurface::{
+    columns as stress_columns, contact as contact_of_section, interfaces, on_section,
+};
 pub use surfaces::RINGS;
 pub(crate) use surfaces::{as_measured, changed, curves as of_surfaces};
 pub(crate) use sweep::curves as of_sweep;

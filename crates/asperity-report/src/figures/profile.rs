@@ -156,7 +156,7 @@ fn lower_displacement(facing: &OverlapFields, iy: usize, case: &Case) -> Result<
         let share = Compliances::new(lower, &rigid)?.normal / Compliances::new(lower, upper)?.normal;
         return Ok(share * &facing.displacement.column(iy));
     }
-    // Of a pair with layers the share depends on the wavelength.
+    // The share of a body in a pair with layers depends on the wavelength.
     let grid = Grid { shape: facing.pressure.dim().into(), pitch: facing.pitch };
     let mut lower_displacement = grid.zeros();
     Operators::new(grid, response(lower, &rigid)?, case.contact.boundary)

@@ -1,5 +1,7 @@
 //! The figures of the stress under a surface.
 
+use std::collections::BTreeMap;
+
 use asperity_base::Field;
 use asperity_base::units::{Dimension, format};
 use asperity_study::io::fields::{Attribute, Fields};
@@ -39,6 +41,7 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Result {
     };
     let of = format!("{of}{step}, section at y = {}", format(y, Dimension::Length));
     let spans = contact(fields, ends[0][0], dx)?;
+    let interfaces = interfaces(&attributes, ends[1][1]);
     sheet.add("subsurface", &title, &of, || {
         let map = Map::section(
             "",
@@ -47,7 +50,7 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Result {
             Quantity::new("von Mises stress", Unit::Pressure),
             Colours::Pressure,
         );
-        let map = map.with_contours(&field).with_spans(spans, "contact");
+        let map = map.with_contours(&field).with_spans(spans, "contact").with_depths(interfaces, "interface");
         let on_it = at[1] == y;
         let mark = [on_section(at[0], ends[0]), at[2]];
         let map = if on_it { map.marked(mark, "most stressed point") } else { map };
@@ -60,6 +63,16 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Result {
 /// body counts on from there.
 pub(crate) fn on_section(x: f64, [from, to]: [f64; 2]) -> f64 {
     if x < from { x + (to - from) } else { x }
+}
+
+/// Returns the depths of the interfaces of a body with layers above the lower end of a section.
+pub(crate) fn interfaces(attributes: &BTreeMap<String, Attribute>, to: f64) -> Vec<f64> {
+    match attributes.get("layer_depth") {
+        Some(Attribute::Numbers(tops)) => {
+            tops.iter().copied().filter(|top| *top > 0.0 && *top < to).collect()
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// Where the surface of the section bears: from and to along x, m. `begin` is its left end, `dx` the size of

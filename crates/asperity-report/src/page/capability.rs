@@ -76,6 +76,7 @@ fn planes<C: Capability>(fields: &Fields, rows: &[C::Row]) -> Vec<Plane> {
             unit: Unit::of_field((map.unit)(row)),
             shades: if scale.is_some() { Shades::Logarithmic } else { Shades::FromZero },
             spans: Vec::new(),
+            interfaces: Vec::new(),
             mark: rows.iter().find_map(|row| (map.mark)(row, map.field)).map(|place| (place, map.marked)),
         })
     };

@@ -22,6 +22,8 @@ pub(super) struct Plane {
     pub(super) shades: Shades,
     /// Where the upper edge is in contact, from and to, m.
     pub(super) spans: Vec<[f64; 2]>,
+    /// Depths of the interfaces between layers, m.
+    pub(super) interfaces: Vec<f64>,
     /// A point that is marked, and what it is.
     pub(super) mark: Option<([f64; 2], &'static str)>,
 }
@@ -84,6 +86,7 @@ impl Plane {
             "range": [low, high],
             "mark": self.mark.map(|(at, what)| json!({ "at": at, "what": what })),
             "spans": self.spans,
+            "interfaces": self.interfaces,
             "map": self.map,
         })
     }

@@ -59,6 +59,7 @@ fn of_body(plastic_sections: PlasticSection, data: &mut Value) -> String {
         unit,
         shades,
         spans: Vec::new(),
+        interfaces: Vec::new(),
         mark: None,
     };
     let title = format!("Accumulated plastic strain in the section y = {at}.");

@@ -76,6 +76,7 @@ fn stress(fields: &Fields) -> Result<CaptionedPlane> {
         ("section at y".to_owned(), escaped(&format(number("section"), Dimension::Length))),
     ];
     let spans = figures::contact_of_section(fields, x, pitch[0])?;
+    let depth = (section.ncols() - 1) as f64 * pitch[1];
     let on_it = at[1] == number("section");
     let ends = [x, x + section.nrows() as f64 * pitch[0]];
     let map = Plane {
@@ -92,6 +93,7 @@ fn stress(fields: &Fields) -> Result<CaptionedPlane> {
         unit: Unit::Pressure,
         shades: Shades::FromZero,
         spans,
+        interfaces: figures::interfaces(&attributes, depth),
         mark: on_it.then_some(([figures::on_section(at[0], ends), at[2]], "most stressed point")),
     };
     Ok((map, rows))

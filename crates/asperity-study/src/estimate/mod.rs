@@ -450,23 +450,31 @@ fn fast(case: &Case, pitch: Metre) -> Option<String> {
     })
 }
 
-/// Warns of layers that the cells do not resolve, together.
+/// Warns of layers that the cells do not resolve: all of them together, or one of them.
 fn thin(name: &str, case: &Case, pitch: [Metre; 2]) -> Option<String> {
+    /// Thickness of a layer over the size of a cell, from which it counts by more than its compliance.
+    const LEAST: f64 = 0.1;
     let body = if name == "lower" { &case.lower } else { &case.upper };
     let layers = &body.material.layers;
-    let thickness = layers.iter().map(|layer| layer.thickness).sum::<Metre>();
     let cell = pitch[0].max(pitch[1]);
+    let total = layers.iter().map(|layer| layer.thickness).sum::<Metre>();
+    let thinnest = || layers.iter().enumerate().find(|(_, layer)| layer.thickness < LEAST * cell);
+    let (what, thickness, than) = if layers.is_empty() {
+        return None;
+    } else if total < cell {
+        let what = if layers.len() > 1 { "layers" } else { "coating" };
+        (format!("the thickness of the {what}"), total, "a cell")
+    } else {
+        let (n, layer) = thinnest()?;
+        (format!("the thickness of layer {}", n + 1), layer.thickness, "a tenth of a cell")
+    };
     let length = |value| units::format(value, Dimension::Length);
-    let (what, is, does) =
-        if layers.len() > 1 { ("layers", "are", "they do") } else { ("coating", "is", "it does") };
-    (!layers.is_empty() && thickness < cell).then(|| {
-        format!(
-            "the {what} of the {name} body {is} thinner, {}, than a cell, {}: what {does} to the mean displacement of a cell \
-             is right, how the pressure varies over the thickness is not seen; take a smaller `pitch` for that",
-            length(thickness),
-            length(cell)
-        )
-    })
+    Some(format!(
+        "{what} of the {name} body, {}, is less than {than}; a cell is {}: the mean displacement of a cell is right, but the \
+         pressure is not resolved over this thickness; take a smaller `pitch` for that",
+        length(thickness),
+        length(cell)
+    ))
 }
 
 /// Warns if there is no contact, if the boundary of the grid cuts the contact off, or if the contact has too

@@ -25,7 +25,8 @@ fn a_coating_thinner_than_a_cell_is_told_of_and_hertz_says_nothing_of_a_coated_b
     const THIN: &str = "[lower.coating]\nthickness = 0.4e-6\nyoung = \"3 GPa\"\npoisson = 0.3\n";
     const THICK: &str = "[upper.coating]\nthickness = 5e-6\nyoung = \"3 GPa\"\npoisson = 0.3\n";
     let warnings = |motion| Static { form: sphere(), load: 1.0, motion, ..Static::default() }.check();
-    let said = "the coating of the lower body is thinner, 400 nm, than a cell, 500 nm";
+    let said =
+        "the thickness of the coating of the lower body, 400 nm, is less than a cell; a cell is 500 nm";
     assert!(warnings(THIN).iter().any(|warning| warning.starts_with(said)), "{:?}", warnings(THIN));
     // By Hertz' estimate the boundary cuts off a body without the coating.
     assert!(warnings("").iter().any(|warning| warning.contains("by Hertz")));

@@ -78,7 +78,7 @@ impl Simulation {
                 None => solver.solve_roughly(pair, control, (residual, &self.params), &earlier)?,
             };
             if solver.progress.trial == 1 {
-                // Contacts of another geometry are no trials.
+                // Pressures are extrapolated between the trials on this geometry alone.
                 earlier.clear();
             }
             solver.progress.trial += 1;
@@ -160,8 +160,7 @@ impl Simulation {
             }
             Err(other) => return Err(other),
         };
-        let slope = (more / less).ln() / (further - approach);
-        Ok(Guess::new(approach, if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / scale }))
+        Ok(Guess::between(approach, further, more / less, scale))
     }
 
     /// Approach at which some position of the pass first touches.

@@ -65,7 +65,7 @@ pub(super) const RULES: &[Rule<Joint>] = &[
         this: "[conductance]",
         with: "a layer without a conductivity of its own",
         message: "[conductance] needs the conductivity of each layer",
-        hint: "for example `conductivity = \"20 W/(m K)\"` in [lower.coating]; `resistivity` with kind = \"electrical\"",
+        hint: "for example `conductivity = \"20 W/(m K)\"` in [lower.coating] or [[lower.layers]]; `resistivity` with kind = \"electrical\"",
         at: "conductance",
         example: &[COATED, HEAT, CONDUCTIVITIES[0], CONDUCTIVITIES[1]],
         broken: |joint, surroundings| {

@@ -5,8 +5,8 @@
 //! concave, and lies below its tangents: hence each round lowers the energy, and the rounds converge to an
 //! equilibrium. Without positive influence between cells in the inverse of the operator, the gaps of all
 //! rounds change in one direction, and the equilibrium is the first one that bodies on their way reach.
-//! Rounds are slow near an instability. Newton's iteration then leads on, in rounds that replace the bounds by
-//! the tangents of the tension. A round that may leave the way of the bodies is undone.
+//! Rounds are slow near an instability. Newton's iteration then continues, with rounds that replace the bounds
+//! by the tangents of the tension. A round after which the bodies may have left their path is undone.
 
 mod law;
 mod newton;
@@ -44,13 +44,13 @@ const MAX_RESIDUAL: f64 = 0.1;
 /// Number of rounds of lagged bounds after an attempt of Newton's iteration that fails. It doubles with each
 /// failure, up to a limit.
 const ROUNDS_AFTER_FAILURE: [usize; 2] = [2, 16];
-/// Factor of the share of the softening after a round that has no stable solution.
+/// Factor by which the share of the softening falls after a round without a stable solution.
 const SHARE_AFTER_FAILURE: f64 = 0.7;
-/// Least share of the softening. Rounds of lagged bounds are cheaper than rounds with less.
+/// Least share of the softening. Rounds of lagged bounds are cheaper than rounds with a smaller share.
 const LEAST_SHARE: f64 = 0.6;
-/// Factor of the part of the softening that is left out, after a round that has a solution.
+/// Factor by which the omitted part of the softening falls after a round with a solution.
 const LEFT_AFTER_SUCCESS: f64 = 0.7;
-/// Part of the softening that is not worth leaving out.
+/// Omitted part of the softening below which the whole softening is used.
 const LEAST_LEFT: f64 = 0.03;
 
 /// Solves the frictionless contact of a pair of bodies that attract each other: with the tension σ(g) of the
@@ -61,7 +61,7 @@ const LEAST_LEFT: f64 = 0.03;
 /// ```
 ///
 /// Cells in contact have g = 0 and p > −σ(0). The answer is an ordinary solution whose lower bounds are the
-/// tensions, so that [`Solution::contact_cells`] and the others mean what they say. Its residual is that of
+/// tensions, so that [`Solution::contact_cells`] and the like keep their meaning. Its residual is that of
 /// these equations.
 ///
 /// There may be several equilibria. Bodies that come from afar, without a `last` solution, reach the one with
@@ -299,7 +299,7 @@ const STEP_GROWTH: f64 = 1.4;
 /// Factor of the step when the load rises.
 const STEP_REDUCTION: f64 = 0.4;
 
-/// When to attempt rounds of Newton's iteration, and with which share of the softening.
+/// Schedule of the rounds of Newton's iteration, and their share of the softening.
 struct Attempts {
     /// Rounds of lagged bounds to wait.
     wait: usize,

@@ -1,4 +1,4 @@
-//! Rounds of Newton's iteration, whose tension falls with the gap.
+//! Rounds of Newton's iteration, in which the tension falls with the gap.
 
 use ndarray::Zip;
 
@@ -15,15 +15,15 @@ use asperity_base::watch::check_stop;
 
 /// Largest number of steps of a round.
 const MAX_STEPS: usize = 12;
-/// A step whose equations take so many products with their matrix has no stable solution.
+/// Number of products with the matrix of a step at which the step counts as one without a stable solution.
 const MAX_PRODUCTS: usize = 20;
-/// Reduction of the residual of its equations that a step aims at.
+/// Residual of the equations of a step, as a fraction of their right-hand side.
 const STEP_REDUCTION: f64 = 0.3;
-/// Largest sum of the differences σ − τ at the gaps that have risen, as a fraction of the sum of the changes of
+/// Largest sum of the differences σ − τ over the gaps that have risen, as a fraction of the sum of all changes of
 /// the tension in the round.
 const MAX_EXCESS: f64 = 0.05;
 /// Largest sum of the changes of the tension that have another sign than in the round before, as a fraction of
-/// all changes of that round. Without a stable equilibrium the equations of a step lead away from it.
+/// all changes of that round. If no stable equilibrium is near, the equations of a step lead the bodies back.
 const MAX_OPPOSED: f64 = 0.05;
 /// Residual of a step above which a round has no solution.
 const MAX_STEP_RESIDUAL: f64 = 1e3;
@@ -69,10 +69,9 @@ pub(super) struct State {
 /// τ(g) = max(0, σ(g₀) + θ σ′(g₀) (g − g₀))
 /// ```
 ///
-/// σ is convex. Below g₀ the tension τ is therefore nowhere above σ, and gaps that fall do not fall below those
-/// of the equilibrium that the bodies reach. Gaps that rise do not rise above those of the equilibrium if σ is
-/// nowhere above τ, which limits their rise for a given θ. With θ = 0 a round is one of lagged bounds, with
-/// θ = 1 one of Newton's iteration.
+/// σ is convex. At gaps below g₀, τ is therefore nowhere above σ, and falling gaps do not pass the equilibrium
+/// that the bodies reach. Rising gaps do not pass it either if τ is nowhere below σ. For a given θ this limits
+/// their rise. With θ = 0 a round is one of lagged bounds, with θ = 1 one of Newton's iteration.
 struct Tangent {
     gap: Field,
     /// The tension σ(g₀).
@@ -99,17 +98,24 @@ impl Tangent {
             .map_collect(|g, before, tension, softening| (tension + softening * (before - g)).max(0.0))
     }
 
-    /// Whether a solution of the round with this gap is on the way of the bodies, after a `change` of σ in the
-    /// round before. Returns the change in this round if it is.
-    fn leads_on(&self, adhesion: &Adhesion, gap: &Field, change: &Field) -> Option<Field> {
-        let Self { gap: before, tension: tension_before, .. } = self;
-        let now = Zip::from(gap).and(tension_before).map_collect(|g, before| adhesion.tension(*g) - before);
-        let (mut excess, mut opposed) = (0.0, 0.0);
-        let tension = self.tension(gap);
-        Zip::indexed(gap).and(before).and(&tension).for_each(|cell, g, before, tau| {
-            excess += if g > before { (adhesion.tension(*g) - tau).max(0.0) } else { 0.0 };
-            opposed += if now[cell] * change[cell] < 0.0 { now[cell].abs() } else { 0.0 };
+    /// Returns the change of σ in a round that ends at this `gap` with the tension τ, after a `change` in the
+    /// round before. Returns `None` if the bodies may have left their path.
+    fn change_of_round(
+        &self,
+        adhesion: &Adhesion,
+        gap: &Field,
+        tau: &Field,
+        change: &Field,
+    ) -> Option<Field> {
+        let sigma = gap.mapv(|g| adhesion.tension(g));
+        let cells = Zip::from(gap).and(&self.gap).and(&sigma).and(tau);
+        let excess = cells.fold(0.0, |sum, g, before, sigma, tau| {
+            sum + if g > before { (sigma - tau).max(0.0) } else { 0.0 }
         });
+        let now = sigma - &self.tension;
+        let opposed = Zip::from(&now)
+            .and(change)
+            .fold(0.0, |sum, now: &f64, before| sum + if now * before < 0.0 { now.abs() } else { 0.0 });
         let [size, size_before] = [&now, change].map(|change| change.iter().map(|s| s.abs()).sum::<f64>());
         (excess <= MAX_EXCESS * size && opposed <= MAX_OPPOSED * size_before).then_some(now)
     }
@@ -125,7 +131,7 @@ struct Step {
 }
 
 impl<'a> NewtonIteration<'a> {
-    /// Begins at the solution of a round of lagged bounds, with this change of the tension.
+    /// Creates the iteration from the solution of a round of lagged bounds with this change of the tension.
     pub(super) fn new(
         problem: &'a Problem<'a>,
         preconditioner: &'a mut WaveStiffness,
@@ -176,8 +182,8 @@ impl<'a> NewtonIteration<'a> {
         self.problem.initial_gap + &self.state.displacement - self.state.approach
     }
 
-    /// Solves the contact of a round to this residual. Returns false if it has no stable solution, or if gaps
-    /// rise too far.
+    /// Solves the contact of a round to this residual. Returns false if it has no stable solution, or if the
+    /// bodies may have left their path.
     fn round(&mut self, operator: &mut dyn Operator, tangent: &Tangent, residual: f64) -> Result<bool> {
         for _ in 0..MAX_STEPS {
             check_stop(self.problem.watch)?;
@@ -186,7 +192,8 @@ impl<'a> NewtonIteration<'a> {
             let bounds = Bounds::up_to(self.problem.upper.clone()).above(-&tension);
             let eta = self.residual(&bounds);
             if eta < residual {
-                let change = tangent.leads_on(self.problem.adhesion, &gap, &self.change);
+                let adhesion = self.problem.adhesion;
+                let change = tangent.change_of_round(adhesion, &gap, &tension, &self.change);
                 return Ok(change.map(|change| self.change = change).is_some());
             }
             let (pressure, gaps, stiffness) = (flat(&self.state.pressure), flat(&gap), 1.0 / self.influence);
@@ -238,7 +245,7 @@ impl<'a> NewtonIteration<'a> {
         }
         let mut change = change.mapv(f64::from);
         if let Some(unit) = &step.unit {
-            // The load does not change by the rounding.
+            // Rounding must not change the load.
             let sum = change.sum();
             change.zip_mut_with(unit, |p, unit| *p -= sum * f64::from(*unit));
         }

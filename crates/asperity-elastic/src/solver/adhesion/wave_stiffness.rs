@@ -1,4 +1,4 @@
-//! The preconditioner of the cells in contact beside an attraction.
+//! Preconditioner of the cells in contact of bodies that attract each other.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use crate::math::{Convolution, Kernel, fft::angular_frequency, parallel};
 use crate::operator::Operator;
 use crate::solver::sets::{Set, Sets};
 
-/// Stiffness of the mean, over that of the longest wave.
+/// Stiffness of the mean, as a fraction of that of the longest wave.
 const MEAN_STIFFNESS: f64 = 0.5;
 
 /// The preconditioner z = A B A r on the free cells A, where B is the stiffness of each wave of a periodic

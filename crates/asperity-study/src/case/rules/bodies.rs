@@ -43,7 +43,7 @@ pub(super) const RULES: &[Rule] = &[
             let Case { lower, upper, .. } = tables.case;
             let rigid =
                 asperity_contact::material::composite_modulus(&lower.material, &upper.material).is_err();
-            tables.at("upper.young").filter(|_| rigid)
+            tables.at("upper.young").or(tables.at("upper.base")).filter(|_| rigid)
         },
     },
 ];
