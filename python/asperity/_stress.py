@@ -208,7 +208,7 @@ def stress(
     poisson : float, optional
         Poisson's ratio of the body, 0 to 0.5. Give it or a `material`.
     material : Material, optional
-        Material of the body.
+        Material of the body, with its layers.
     boundary : str or pair of str, optional
         The surroundings of the grid, along x and y if two are given: ``"free"`` (by default) or ``"periodic"``.
     shear : pair of array_like, optional
@@ -225,7 +225,7 @@ def stress(
     Raises
     ------
     asperity.errors.BadInput
-        If an argument is invalid, or the body has a coating.
+        If an argument is invalid.
     asperity.errors.Memory
         If the planes need more memory than is available.
     KeyboardInterrupt
@@ -250,20 +250,21 @@ def stress(
                 raise bad_input(key, f"'{key}' is given beside a contact, which has its own")
         given = _of_contact(source, body)
     else:
-        given = _of_tractions(source, shear, pitch, boundary, _ratio(poisson, material), body)
+        given = _of_tractions(source, shear, pitch, boundary, _constants(poisson, material), body)
     return SubsurfaceStress(given, _depths(depths), _case.threads(threads))
 
 
 def _of_contact(contact: Contact, body: str) -> Any:
-    if {"coating", "layers"} & set(contact.case[body]):
-        raise bad_input("coating", "stress under a coating is not supported yet")
+    table = contact.case[body]
+    layers = table.get("layers", [table["coating"]] if "coating" in table else [])
+    constants = float(table["young"]), table["poisson"], [[layer[key] for key in ("thickness", "young", "poisson")] for layer in layers]
     found = contact.fields
     shear = [found[name].values if name in found else None for name in ("traction_x", "traction_y")]
     boundary = contact.case["contact"]["boundary"]
-    return _of_tractions(contact.pressure, shear, contact.pitch, boundary, contact.case[body]["poisson"], body)
+    return _of_tractions(contact.pressure, shear, contact.pitch, boundary, constants, body)
 
 
-def _of_tractions(pressure: Any, shear: Any, pitch: Any, boundary: Any, poisson: float, body: str) -> Any:
+def _of_tractions(pressure: Any, shear: Any, pitch: Any, boundary: Any, constants: Any, body: str) -> Any:
     if pitch is None:
         raise bad_input("pitch", "'pitch' is missing: how far apart are the tractions?")
     normal = _finite("pressure", matrix("pressure", pressure))
@@ -271,7 +272,7 @@ def _of_tractions(pressure: Any, shear: Any, pitch: Any, boundary: Any, poisson:
     if len(parts) != 2:
         raise bad_input("shear", f"'shear' has {len(parts)} entries, expected the traction along x and that along y")
     along = [None if part is None else _finite("shear", matrix("shear", part, ("pressure", normal.shape))) for part in parts]
-    return (normal, lengths("pitch", pitch)), along, edges(boundary), poisson, body == "upper"
+    return (normal, lengths("pitch", pitch)), along, edges(boundary), constants, body == "upper"
 
 
 def _finite(key: str, found: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -280,14 +281,11 @@ def _finite(key: str, found: NDArray[np.float64]) -> NDArray[np.float64]:
     return found
 
 
-def _ratio(poisson: float | None, material: Material | None) -> float:
+def _constants(poisson: float | None, material: Material | None) -> tuple[float, float, list[list[float]]]:
     if (poisson is None) == (material is None):
         raise bad_input("poisson", "give 'poisson' or 'material', one of them")
-    if material is None:
-        return _poisson(poisson)
-    if material.coating is not None:
-        raise bad_input("material", "stress under a coating is not supported yet")
-    return material.poisson
+    # The stress in a body without layers does not depend on its modulus.
+    return (1.0, _poisson(poisson), []) if material is None else material._constants()
 
 
 def _depths(depths: Any) -> list[float]:

@@ -31,28 +31,31 @@ class Coating(Comparable):
     thickness : float or str
         Above 0, m.
     young : float or str
-        Young's modulus, above 0, Pa.
-    poisson : float
-        Poisson's ratio, 0 to 0.5.
+        Young's modulus, above 0, Pa; or the name of a material, see :func:`materials`.
+    poisson : float, optional
+        Poisson's ratio, 0 to 0.5. A named material has its own.
 
     Examples
     --------
     >>> import asperity as asp
     >>> asp.Coating(thickness="2 um", young="300 GPa", poisson=0.25).thickness
     2e-06
+    >>> asp.Coating("2 um", "dlc").young
+    259000000000.0
     """
 
-    def __init__(self, thickness: Quantity, young: Quantity, poisson: float) -> None:
+    def __init__(self, thickness: Quantity, young: Quantity, poisson: float | None = None) -> None:
         self.thickness = quantity("thickness", thickness, "length")
+        self.name, (young, poisson) = _elastic(young, poisson)
         self.young = quantity("young", young, "pressure")
         self.poisson = _poisson(poisson)
 
     def __repr__(self) -> str:
-        thickness, young = written(self.thickness, "length"), written(self.young, "pressure")
-        return f"Coating(thickness={thickness}, young={young}, poisson={self.poisson!r})"
+        return f"Coating(thickness={written(self.thickness, 'length')}, {', '.join(_elastic_parts(self))})"
 
     def _table(self) -> dict[str, Any]:
-        return {"thickness": self.thickness, "young": self.young, "poisson": self.poisson}
+        table = {"thickness": self.thickness, "young": self.young, "poisson": self.poisson}
+        return table if self.name is None else {"material": self.name, **table}
 
 
 class Plasticity(Comparable):
@@ -164,15 +167,10 @@ class Material(Comparable):
         coating: Coating | Sequence[Coating] | None = None,
         plasticity: Plasticity | None = None,
     ) -> None:
-        named = _named(young)
-        self.name = None if named is None else str(young)
-        if named is not None:
-            young = named["young"]
-            poisson = named["poisson"] if poisson is None else poisson
-            # A body that flows below its surface has no hardness.
-            hardness = named["hardness"] if hardness is None and plasticity is None else hardness
-        if poisson is None:
-            raise bad_input("poisson", "missing 'poisson', Poisson's ratio", 'for example asp.Material("210 GPa", 0.3), or asp.Material("steel")')
+        self.name, (young, poisson) = _elastic(young, poisson)
+        # A body that flows below its surface has no hardness.
+        if self.name is not None and hardness is None and plasticity is None:
+            hardness = materials()[self.name]["hardness"]
         self.young = quantity("young", young, "pressure", infinite=True)
         self.poisson = _poisson(poisson)
         self.hardness: float | NDArray[np.float64] = math.inf
@@ -190,12 +188,7 @@ class Material(Comparable):
 
     def __repr__(self) -> str:
         named = {} if self.name is None else materials()[self.name]
-        if named:
-            parts = [repr(self.name)]
-            if self.poisson != named["poisson"]:
-                parts.append(f"poisson={self.poisson!r}")
-        else:
-            parts = [f"young={written(self.young, 'pressure')}", f"poisson={self.poisson!r}"]
+        parts = _elastic_parts(self)
         usual = None if self.plasticity is not None else named.get("hardness")
         if isinstance(self.hardness, np.ndarray):
             parts.append(f"hardness=<{' × '.join(map(str, self.hardness.shape))} values>")
@@ -227,11 +220,9 @@ class Material(Comparable):
             table["plasticity"] = self.plasticity._table()
         return table
 
-    def _constants(self) -> tuple[float, float, list[float] | None]:
-        # The compliances are those below the layers, of which it only counts whether there are any.
-        layers = [self.coating] if isinstance(self.coating, Coating) else self.coating
-        layer = [layers[0].thickness, layers[0].young, layers[0].poisson] if layers else None
-        return self.young, self.poisson, layer
+    def _constants(self) -> tuple[float, float, list[list[float]]]:
+        layers = [self.coating] if isinstance(self.coating, Coating) else self.coating or []
+        return self.young, self.poisson, [[layer.thickness, layer.young, layer.poisson] for layer in layers]
 
 
 def materials() -> dict[str, dict[str, Any]]:
@@ -271,6 +262,26 @@ def oils() -> dict[str, dict[str, Any]]:
     """
     keys = ("about", "viscosity", "pressure_viscosity", "density", "law", "compressible", "temperatures", "source")
     return {oil["name"]: {key: oil[key] for key in keys} for oil in _core.named_oils()}
+
+
+def _elastic(young: Quantity, poisson: float | None) -> tuple[str | None, tuple[Quantity, float]]:
+    """Return the name of a material, if `young` is one, and its constants."""
+    named = _named(young)
+    if named is not None:
+        return str(young), (named["young"], named["poisson"] if poisson is None else poisson)
+    if poisson is None:
+        raise bad_input("poisson", "missing 'poisson', Poisson's ratio", 'for example asp.Material("210 GPa", 0.3), or asp.Material("steel")')
+    return None, (young, poisson)
+
+
+def _elastic_parts(material: Material | Coating) -> list[str]:
+    """Return the arguments that give the elastic constants."""
+    if material.name is None:
+        return [f"young={written(material.young, 'pressure')}", f"poisson={material.poisson!r}"]
+    own = material.poisson == materials()[material.name]["poisson"]
+    # The name follows a keyword in a layer.
+    parts = [repr(material.name) if isinstance(material, Material) else f"young={material.name!r}"]
+    return parts if own else [*parts, f"poisson={material.poisson!r}"]
 
 
 def _named(young: Any) -> dict[str, Any] | None:

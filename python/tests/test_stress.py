@@ -92,9 +92,25 @@ def test_it_pickles_and_goes_to_xarray():
     assert float(dataset["x"][0]) == 0.5e-6
 
 
-def coated():
-    layer = asp.Coating("1 um", "400 GPa", 0.2)
-    return asp.Material("210 GPa", 0.3, coating=layer)
+def test_layers_alike_are_the_body_and_a_stiff_one_bears_more():
+    def at(material):
+        return asp.stress(PRESSURE, [0.0, 1e-6, 3e-6], material=material, pitch=1e-6)
+
+    plain = at(asp.Material("210 GPa", 0.3))
+    alike = at(asp.Material("210 GPa", 0.3, coating=[asp.Coating("1 um", "210 GPa", 0.3), asp.Coating("2 um", "210 GPa", 0.3)]))
+    np.testing.assert_allclose(alike.von_mises, plain.von_mises, rtol=1e-6, atol=1e-6 * plain.von_mises.max())
+    stiff = at(asp.Material("steel", coating=asp.Coating("2 um", "dlc")))
+    assert stiff["xx"][0].max() > 1.1 * plain["xx"][0].max()
+
+
+def test_the_stress_of_a_contact_is_that_in_its_layers():
+    layered = asp.Material("steel", coating=[asp.Coating("2 um", "dlc"), asp.Coating("0.5 um", "chromium")])
+    bodies = asp.form.flat((32, 32), pitch="3 um"), asp.form.sphere("1 mm")
+    contact = asp.contact(*bodies, STEEL, layered, load="2 N", progress=False)
+    by_contact = asp.stress(contact, [0.0, 2e-6], body="upper")
+    by_material = asp.stress(contact.pressure, [0.0, 2e-6], material=layered, pitch=3e-6, body="upper")
+    np.testing.assert_array_equal(by_contact["xx"], by_material["xx"])
+    assert not np.allclose(by_contact["xx"], asp.stress(contact, [0.0, 2e-6], body="lower")["xx"], rtol=1e-2)
 
 
 @pytest.mark.parametrize(
@@ -103,7 +119,6 @@ def coated():
         ({"poisson": None}, "give 'poisson' or 'material', one of them"),
         ({"material": STEEL}, "give 'poisson' or 'material', one of them"),
         ({"poisson": 0.7}, "'poisson' is 0.7, expected a number from 0 to 0.5"),
-        ({"poisson": None, "material": coated()}, "stress under a coating is not supported yet"),
         ({"pitch": None}, "'pitch' is missing"),
         ({"pitch": -1.0}, "'pitch' is -1.0"),
         ({"body": "middle"}, "'body' is 'middle', expected \"lower\" or \"upper\""),
@@ -130,12 +145,10 @@ def test_bad_input_is_refused(arguments, told):
 
 def test_what_a_contact_has_is_not_given_twice():
     c = asp.contact(
-        asp.form.flat((8, 8), pitch="4 um"), asp.form.sphere("1 mm"), STEEL, coated(), load=1e-3, progress=False
+        asp.form.flat((8, 8), pitch="4 um"), asp.form.sphere("1 mm"), STEEL, STEEL, load=1e-3, progress=False
     )
     with pytest.raises(asp.errors.CaseError, match="'poisson' is given beside a contact, which has its own"):
         asp.stress(c, 1e-6, poisson=0.3)
-    with pytest.raises(asp.errors.CaseError, match="stress under a coating is not supported yet"):
-        asp.stress(c, 1e-6, body="upper")
 
 
 def test_more_planes_than_memory_are_refused():

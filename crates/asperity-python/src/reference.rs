@@ -211,15 +211,12 @@ pub(crate) fn closed_form<'py>(
     Ok(values.expect("as many numbers at each point").into_pyarray(py))
 }
 
-/// Young's modulus and Poisson's ratio, and for a coating thickness, Young's modulus and Poisson's ratio.
-type Constants = (f64, f64, Option<[f64; 3]>);
+/// Young's modulus and Poisson's ratio; thickness, Young's modulus and Poisson's ratio of each layer.
+pub(crate) type Constants = (f64, f64, Vec<[f64; 3]>);
 
-fn material((young, poisson, coating): Constants) -> Result<Material> {
-    let body = Material::elastic(young, poisson)?;
-    Ok(match coating {
-        Some([thickness, young, poisson]) => body.coated(Coating::new(thickness, young, poisson)?),
-        None => body,
-    })
+pub(crate) fn material((young, poisson, layers): Constants) -> Result<Material> {
+    let layers = layers.into_iter().map(|[thickness, young, poisson]| Coating::new(thickness, young, poisson));
+    Ok(Material::elastic(young, poisson)?.layered(layers.collect::<Result<_>>()?))
 }
 
 /// Returns the compliances of a pair, 1/E*, 1/N*, 1/G*, their E* and Dundurs' β, and the composite tangential

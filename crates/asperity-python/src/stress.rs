@@ -1,5 +1,6 @@
 //! Stress below a surface.
 
+use asperity::kernel::Stack;
 use asperity::motion::Watch;
 use asperity::stress::Stress;
 use asperity::subsurface::{Extreme, Maximum, Subsurface, Tractions};
@@ -9,23 +10,28 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 
 use crate::arrays::{boundary, field, ok};
+use crate::reference::{Constants, material};
 use crate::surface::Heights;
 use crate::work;
 
 /// Loading of a body: pressure and pitch, shear along x and y on the lower body, boundary along both axes,
-/// Poisson's ratio, and whether it is the upper body.
-type LoadedBody<'py> = (Heights<'py>, [Option<PyReadonlyArray2<'py, f64>>; 2], [String; 2], f64, bool);
+/// elastic constants, and whether it is the upper body.
+type LoadedBody<'py> = (Heights<'py>, [Option<PyReadonlyArray2<'py, f64>>; 2], [String; 2], Constants, bool);
 
 /// Creates the body on any thread.
 fn body(py: Python<'_>, given: &LoadedBody<'_>) -> PyResult<(impl Fn() -> Subsurface + Send + use<>, Grid)> {
-    let ((pressure, pitch), shear, edges, poisson, is_upper) = given;
+    let ((pressure, pitch), shear, edges, constants, is_upper) = given;
     let pressure = field(pressure);
     let grid = ok(Grid::new([pressure.nrows(), pressure.ncols()], *pitch), py)?;
     let boundary = boundary(edges);
     let tractions = Tractions { pressure, shear: shear.each_ref().map(|shear| shear.as_ref().map(field)) };
     let tractions = if *is_upper { tractions.on_upper() } else { tractions };
-    let poisson = *poisson;
-    Ok((move || Subsurface::new(grid, boundary, poisson, &tractions), grid))
+    let material = ok(material(constants.clone()), py)?;
+    let body = move || {
+        let body = Subsurface::new(grid, boundary, material.poisson, &tractions);
+        if material.is_layered() { body.with_layers(Stack::new(&material)) } else { body }
+    };
+    Ok((body, grid))
 }
 
 /// Computes the components of the stress at the depths, each `[iz, ix, iy]`.

@@ -181,11 +181,18 @@ fn split(name: String, value: Value, components: &[&str], add: &mut impl FnMut(S
     }
 }
 
-/// Adds the stress below the surface.
+/// Adds the stress below the surface. For bodies with layers it answers whether they crack and come off.
 pub(super) fn add_stress(row: &mut Vec<Cell>, stress: Option<&SubsurfaceRecord>) {
     const PREFIX: &str = "subsurface_";
+    const ANSWERS: [(&str, &str); 2] = [
+        ("max_surface_tension", "largest tension at the surface"),
+        ("max_interface_shear", "largest shear of the interfaces"),
+    ];
     let stress = stress.into_iter().flat_map(|stress| cells(PREFIX, stress, SubsurfaceRecord::OWN_COLUMNS));
-    row.extend(stress.filter(|cell| !is_place(&cell.name[PREFIX.len()..])));
+    row.extend(stress.filter(|cell| !is_place(&cell.name[PREFIX.len()..])).map(|cell| {
+        let answer = ANSWERS.iter().find(|(column, _)| cell.name[PREFIX.len()..] == **column);
+        Cell { answer: answer.map(|(_, words)| (*words).to_owned()), ..cell }
+    }));
 }
 
 /// Adds what the capabilities have found to the rows, each to that at the place of its pass and step.

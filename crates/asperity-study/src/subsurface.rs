@@ -82,6 +82,9 @@ columns! {
         /// Largest principal tension at the surface of a body with layers, which cracks them.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub max_surface_tension: Option<Pascal>,
+        /// Place of the largest tension at the surface, in the same coordinates.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub max_surface_tension_position: Option<[Metre; 3]>,
         /// Largest shear across an interface of its layers, which makes them come off.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub max_interface_shear: Option<Pascal>,
@@ -243,7 +246,8 @@ impl Plan {
             position: self.position(&most.von_mises),
             max_shear: most.shear.value,
             max_shear_position: self.position(&most.shear),
-            max_surface_tension: layers.first().map(|layer| layer.tension.max(0.0)),
+            max_surface_tension: layers.first().map(|layer| layer.tension.value.max(0.0)),
+            max_surface_tension_position: layers.first().map(|layer| self.position(&layer.tension)),
             max_interface_shear: largest(|layer| layer.shear),
             max_interface_tension: largest(|layer| layer.pull.max(0.0)),
         };
@@ -329,6 +333,9 @@ impl Plan {
                 file.set(name, value);
             }
         }
+        if let Some(position) = record.max_surface_tension_position {
+            file.set("max_surface_tension_position", position.to_vec());
+        }
         if let (Some(pass), Some(step)) = (record.pass, record.step) {
             file.set("pass", pass).set("step", step);
         }
@@ -385,6 +392,7 @@ impl SubsurfaceRecord {
                 max_shear: number("max_shear")?,
                 max_shear_position: position("max_shear_position")?,
                 max_surface_tension: number("max_surface_tension"),
+                max_surface_tension_position: position("max_surface_tension_position"),
                 max_interface_shear: number("max_interface_shear"),
                 max_interface_tension: number("max_interface_tension"),
             })
@@ -404,7 +412,7 @@ fn describe_layers(file: &mut FieldFile, layers: &[LayerStress]) {
     file.set("layer_depth", each(|layer| layer.depth))
         .set("layer_max_von_mises", each(|layer| layer.von_mises.value))
         .set("layer_max_von_mises_depth", each(|layer| layer.von_mises.depth))
-        .set("layer_max_tension_above", each(|layer| layer.tension))
+        .set("layer_max_tension_above", each(|layer| layer.tension.value))
         .set(
             "layer_max_tension_below",
             layers.iter().filter_map(|layer| layer.tension_below).collect::<Vec<_>>(),

@@ -205,6 +205,7 @@ mod tests {
                 max_shear: 1.3e9,
                 max_shear_position: [1e-6, 2e-6, 4e-7],
                 max_surface_tension: Some(1e8),
+                max_surface_tension_position: Some([1e-6, 2e-6, 0.0]),
                 max_interface_shear: None,
                 max_interface_tension: None,
             }],

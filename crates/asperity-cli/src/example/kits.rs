@@ -8,7 +8,7 @@ pub(crate) struct ExampleFiles {
 }
 
 /// The examples, in the order of their list.
-pub(crate) const KITS: [ExampleFiles; 16] = [
+pub(crate) const KITS: [ExampleFiles; 17] = [
     ExampleFiles {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
@@ -43,6 +43,14 @@ pub(crate) const KITS: [ExampleFiles; 16] = [
         files: &[
             ("case.toml", include_bytes!("../../examples/viscoelastic/case.toml")),
             ("master.csv", include_bytes!("../../examples/viscoelastic/master.csv")),
+        ],
+    },
+    ExampleFiles {
+        name: "coating",
+        about: "a ball coated with DLC slides on steel: what cracks the coating, and what takes it off",
+        files: &[
+            ("case.toml", include_bytes!("../../examples/coating/case.toml")),
+            ("study.toml", include_bytes!("../../examples/coating/study.toml")),
         ],
     },
     ExampleFiles {

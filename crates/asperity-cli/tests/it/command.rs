@@ -379,7 +379,7 @@ fn every_example_is_accepted_by_check_with_no_warning_but_that_of_a_long_stride(
     let names: Vec<_> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
     assert_eq!(
         names.join(" "),
-        "quickstart hertz friction fretting stribeck viscoelastic micropitting measured running-in rolling pull-off \
+        "quickstart hertz friction fretting stribeck viscoelastic coating micropitting measured running-in rolling pull-off \
          contact-challenge seal joint study paper"
     );
     for name in names {
@@ -390,6 +390,7 @@ fn every_example_is_accepted_by_check_with_no_warning_but_that_of_a_long_stride(
             "contact-challenge" => "E* 25 MPa",
             "seal" => "E* 19.11 GPa",
             "viscoelastic" => "E* 2.667 MPa relaxed",
+            "coating" => "E* 114.2 GPa without the layers",
             _ => "E* 115.4 GPa",
         };
         assert_has(&ok(&output), modulus);

@@ -31,7 +31,7 @@ struct Variant {
     except: &'static [&'static str],
 }
 
-const VARIANTS: [Variant; 27] = [
+const VARIANTS: [Variant; 29] = [
     as_it_stands("quickstart"),
     as_it_stands("hertz"),
     as_it_stands("friction"),
@@ -39,6 +39,19 @@ const VARIANTS: [Variant; 27] = [
     as_it_stands("paper"),
     as_it_stands("study"),
     as_it_stands("pull-off"),
+    as_it_stands("coating"),
+    Variant {
+        name: "coating-small",
+        example: "coating",
+        edits: &[
+            ("shape = [96, 96]", "shape = [24, 24]"),
+            ("pitch = \"0.8 um\"", "pitch = \"3.2 um\""),
+            ("load = \"2 N\"", "load = \"2 N\"\ntolerance = 1e-12"),
+            ("layers = 40", "layers = 8"),
+        ],
+        tolerance: 1e-7,
+        except: &["iterations", "convolutions"],
+    },
     Variant {
         name: "fretting-small",
         example: "fretting",

@@ -12,7 +12,7 @@ pub struct LayerStress {
     /// Von Mises' stress in it.
     pub von_mises: Extreme,
     /// Largest principal tension at its upper face, > 0 if it can crack.
-    pub tension: Pascal,
+    pub tension: Extreme,
     /// Largest principal tension at its lower face; `None` for the body below the layers.
     pub tension_below: Option<Pascal>,
     /// Largest shear traction on its upper face. At an interface it is that of the layer above, also on a rigid body.
@@ -33,7 +33,7 @@ pub(super) struct InLayer {
 /// The largest stresses on a face of a layer.
 #[derive(Clone, Copy)]
 pub(super) struct Face {
-    tension: Pascal,
+    tension: Extreme,
     shear: Pascal,
     pull: Pascal,
 }
@@ -42,8 +42,8 @@ impl Face {
     pub(super) fn new(plane: &Plane) -> Self {
         Self {
             tension: plane.largest(|stress| stress.principal()[0]),
-            shear: plane.largest(|stress| stress.xz.hypot(stress.yz)),
-            pull: plane.largest(|stress| stress.zz),
+            shear: plane.largest(|stress| stress.xz.hypot(stress.yz)).value,
+            pull: plane.largest(|stress| stress.zz).value,
         }
     }
 }
@@ -70,7 +70,7 @@ pub(super) fn by_layer(tops: &[Metre], to: Metre, planes: &[InLayer]) -> Vec<Lay
             depth,
             von_mises: inside.map(|plane| plane.von_mises).reduce(Extreme::or).expect("a face"),
             tension: upper.tension,
-            tension_below: tops.get(n + 1).and_then(|bottom| face(n, *bottom)).map(|face| face.tension),
+            tension_below: tops.get(n + 1).and_then(|bottom| face(n, *bottom)).map(|face| face.tension.value),
             shear,
             pull,
         }

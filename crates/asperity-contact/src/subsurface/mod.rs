@@ -387,10 +387,10 @@ impl Plane {
         self.stress.each_ref().map(|component| component.column(row).to_owned())
     }
 
-    /// Returns the largest of a number of the stress over all cells.
-    fn largest(&self, of: impl Fn(&Stress) -> f64) -> f64 {
-        let cells = self.stress[0].indexed_iter().map(|((i, j), _)| of(&self.stress([i, j])));
-        cells.fold(f64::NEG_INFINITY, f64::max)
+    /// Returns the largest of a number of the stress over all cells, the first of equal ones.
+    fn largest(&self, of: impl Fn(&Stress) -> f64) -> Extreme {
+        let here = |((i, j), _)| Extreme { value: of(&self.stress([i, j])), cell: [i, j], depth: self.depth };
+        self.stress[0].indexed_iter().map(here).reduce(Extreme::or).expect("a plane has cells")
     }
 
     /// Computes von Mises' stress of each cell, Pa.
@@ -712,7 +712,7 @@ mod tests {
         let layers = body.survey(&[0.0, 0.25, 0.75, 1.5], |_, _| ()).layers;
         let [layer, base] = layers.as_slice() else { panic!("{layers:?}") };
         // Below the contact the layer bends: its lower face is pulled harder than anything on its surface.
-        assert!(layer.tension_below.unwrap() > layer.tension.max(0.0), "{layer:?}");
+        assert!(layer.tension_below.unwrap() > layer.tension.value.max(0.0), "{layer:?}");
         assert!(base.tension_below.is_none() && base.shear > 0.0 && layer.shear < 1e-10, "{layers:?}");
         assert!(layer.von_mises.value > base.von_mises.value);
     }
@@ -728,8 +728,8 @@ mod tests {
             assert!(body.plane(1.0).stress.iter().flatten().all(|stress| *stress == 0.0));
             let layers = body.survey(&[0.0, 0.5, 1.0], |_, _| ()).layers;
             let lower = body.plane_in(0, 0.8);
-            assert_eq!(layers[1].shear, lower.largest(|stress| stress.xz.hypot(stress.yz)));
-            assert_eq!(layers[1].pull, lower.largest(|stress| stress.zz));
+            assert_eq!(layers[1].shear, lower.largest(|stress| stress.xz.hypot(stress.yz)).value);
+            assert_eq!(layers[1].pull, lower.largest(|stress| stress.zz).value);
             assert_eq!((layers[1].von_mises.value, layers[1].von_mises.depth), (0.0, 0.8));
             assert!(layers[1].shear > 0.1, "{layers:?}");
         }

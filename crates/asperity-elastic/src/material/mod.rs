@@ -1,15 +1,13 @@
 //! Elastic constants of the bodies and of their pair.
 
+mod coating;
 mod named;
 
+pub use coating::Coating;
 pub use named::{MATERIALS, NAMES, NamedMaterial};
 
 use crate::error::{Error, Result, check, check_in};
-use crate::units::{Dimension, Metre, Pascal};
-use asperity_base::beside::{Beside, Scale};
-use asperity_base::exists;
-use asperity_base::table::Table as _;
-use asperity_derive::Table;
+use crate::units::{Dimension, Pascal};
 
 /// An elastic, or elastic–perfectly plastic, isotropic material.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,58 +21,6 @@ pub struct Material {
     /// Layers on the body, from the surface down. The elastic constants above belong to the body below them.
     /// The hardness caps the pressure, whether a layer or the body yields.
     pub layers: Vec<Coating>,
-}
-
-const THICK: Beside = Beside::most(Scale::Side, 10.0, "contacts do not feel the body under it");
-
-/// An elastic, isotropic layer of uniform thickness, bonded to a body.
-#[derive(Table, Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-#[table("lower.coating", "upper.coating", "lower.layers", "upper.layers")]
-pub struct Coating {
-    /// Thickness of the layer.
-    #[key(quantity = Length, range = AboveZero, example = "\"2 um\"", exists = exists::LAYER, beside = [THICK])]
-    pub thickness: Metre,
-    /// Its Young's modulus.
-    #[key(quantity = Pressure, range = AboveZero, example = "\"300 GPa\"", exists = exists::YOUNG)]
-    pub young: Pascal,
-    /// Its Poisson's ratio.
-    #[key(number = "a number", range = Between { least: 0.0, most: 0.5, open: [false, false] }, example = "0.3")]
-    pub poisson: f64,
-    /// Its thermal conductivity, for heat that passes a contact.
-    ///
-    /// W/(m K), > 0.
-    #[key(
-        quantity = Conductivity,
-        range = AboveZero,
-        absent = "unknown",
-        example = "\"20 W/(m K)\"",
-        exists = exists::CONDUCTIVITY
-    )]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub conductivity: Option<f64>,
-    /// Its electrical resistivity, for a current that passes a contact.
-    ///
-    /// Ω m, > 0.
-    #[key(
-        quantity = Resistivity,
-        range = AboveZero,
-        absent = "unknown",
-        example = "\"1e-6 ohm m\"",
-        exists = exists::RESISTIVITY
-    )]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub resistivity: Option<f64>,
-}
-
-impl Coating {
-    /// Creates a layer with these constants.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] if a constant has no physical meaning.
-    pub fn new(thickness: Metre, young: Pascal, poisson: f64) -> Result<Self> {
-        let this = Self { thickness, young, poisson, conductivity: None, resistivity: None };
-        this.check().map(|()| this)
-    }
 }
 
 impl Material {

@@ -1,9 +1,10 @@
 //! Materials by name.
 
 use super::Material;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::units::Pascal;
 use asperity_base::choice::{Choice, did_you_mean};
+use asperity_base::table::{Key, Source};
 
 /// Constants of a material at room temperature. Those that differ too much between grades are missing.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -51,6 +52,20 @@ impl NamedMaterial {
         Material::elastic(self.young, self.poisson)
     }
 
+    /// Returns the constant `key` of a table that is given, or that of its material.
+    ///
+    /// # Errors
+    /// The error of the `source` for a missing key.
+    pub fn constant(source: &dyn Source, key: &Key, given: Option<f64>, named: Option<f64>) -> Result<f64> {
+        given.or(named).ok_or_else(|| match source.missing(key) {
+            Error::Case(mut error) => {
+                error.hint = error.hint.map(|hint| hint + ", or `material = \"steel\"`");
+                Error::Case(error)
+            }
+            error => error,
+        })
+    }
+
     const fn new(name: &'static str, about: &'static str, elastic: [f64; 2], source: &'static str) -> Self {
         Self {
             name,
@@ -91,7 +106,7 @@ impl NamedMaterial {
 const METAL: &str = "elastic: Kaye & Laby, Tables of Physical and Chemical Constants, 2.2.2; others: CRC Handbook \
                      of Chemistry and Physics, properties of the elements";
 
-/// The materials, by their names: steels and irons, metals, ceramics and glasses, polymers.
+/// The materials, by their names: steels and irons, metals, ceramics and glasses, polymers, coatings.
 pub const MATERIALS: &[NamedMaterial] = &[
     NamedMaterial::new("steel", "carbon steel", [210.0, 0.3], "EN 1993-1-1, EN 1993-1-2 at 20 °C, EN 1991-1-1")
         .thermal([53.3, 440.0, 7850.0]),
@@ -207,6 +222,54 @@ pub const MATERIALS: &[NamedMaterial] = &[
         "Plexiglas GS, data sheet; a polymer creeps, so that its modulus falls with time",
     )
     .thermal([0.19, 1470.0, 1190.0]),
+    NamedMaterial::new(
+        "ptfe",
+        "unfilled; products have 0.4 to 0.8 GPa",
+        [0.5, 0.46],
+        "elastic: DuPont, Teflon PTFE properties handbook; others: Springer Handbook of Condensed Matter and \
+         Materials Data, tables 3.3-12 and 3.3-13; a polymer creeps, so that its modulus falls with time",
+    )
+    .thermal([0.25, 1000.0, 2180.0]),
+    NamedMaterial::new(
+        "pdms",
+        "Sylgard 184, ten parts to one; 1.3 to 3 MPa by the temperature of its cure",
+        [2e-3, 0.5],
+        "modulus: Z. Wang, A. A. Volinsky, N. D. Gallant, J. Appl. Polym. Sci. 131, 41050 (2014); others: Dow \
+         Sylgard 184, data sheet",
+    ),
+    NamedMaterial::new(
+        "titanium-nitride",
+        "TiN, coating from a cathodic arc; others have 250 to 590 GPa",
+        [397.0, 0.25],
+        "modulus: table 3 of Mater. Today Bio 15, 100270 (2022); Poisson's ratio: of the crystals by J. O. Kim, \
+         J. D. Achenbach, P. B. Mirkarimi, M. Shinn, S. A. Barnett, J. Appl. Phys. 72, 1805 (1992)",
+    ),
+    NamedMaterial::new(
+        "chromium-nitride",
+        "CrN, coating from a cathodic arc; others have 200 to 450 GPa",
+        [422.0, 0.25],
+        "modulus: table 3 of Mater. Today Bio 15, 100270 (2022); Poisson's ratio: that of titanium nitride",
+    ),
+    NamedMaterial::new(
+        "dlc",
+        "a-C:H, diamond-like carbon with 20 % hydrogen; others have 100 to 300 GPa",
+        [259.0, 0.17],
+        "modulus: Nat. Commun. 12 (2021), s41467-021-24766-6, table 1; Poisson's ratio: of ta-C by S. Cho, \
+         I. Chasiotis, T. A. Friedmann, J. P. Sullivan, J. Micromech. Microeng. 15, 728 (2005)",
+    ),
+    NamedMaterial::new(
+        "ta-c",
+        "diamond-like carbon without hydrogen, 73 % of it as in diamond; others have 490 to 760 GPa",
+        [572.0, 0.17],
+        "modulus: Nat. Commun. 12 (2021), s41467-021-24766-6, table 1; Poisson's ratio: S. Cho, I. Chasiotis, \
+         T. A. Friedmann, J. P. Sullivan, J. Micromech. Microeng. 15, 728 (2005)",
+    ),
+    NamedMaterial::new(
+        "molybdenum-disulfide",
+        "MoS2, dense polycrystal; porous coatings are several times softer",
+        [116.0, 0.11],
+        "Hill's mean of the constants of a crystal by J. L. Feldman, J. Phys. Chem. Solids 37, 1141 (1976)",
+    ),
 ];
 
 /// The names of [`MATERIALS`].
@@ -267,6 +330,14 @@ const OTHER_NAMES: &[(&str, &str)] = &[
     ("si", "silicon"),
     ("acrylic", "pmma"),
     ("plexiglas", "pmma"),
+    ("teflon", "ptfe"),
+    ("sylgard", "pdms"),
+    ("silicone", "pdms"),
+    ("tin", "titanium-nitride"),
+    ("crn", "chromium-nitride"),
+    ("ach", "dlc"),
+    ("diamondlikecarbon", "dlc"),
+    ("mos2", "molybdenum-disulfide"),
 ];
 
 /// Returns the name of the material that another name means: in other letters, a symbol, or a grade such as
@@ -337,13 +408,20 @@ mod tests {
             ("Ti-6Al-4V", "titanium-alloy"),
             ("coper", "copper"),
             ("PMMA", "pmma"),
+            ("Teflon", "ptfe"),
+            ("Sylgard", "pdms"),
+            ("TiN", "titanium-nitride"),
+            ("DLC", "dlc"),
+            ("a-C:H", "dlc"),
+            ("ta-C", "ta-c"),
+            ("MoS2", "molybdenum-disulfide"),
         ] {
             assert_eq!(hint(word), format!("did you mean `{name}`?"), "{word}");
         }
         for (other, name) in OTHER_NAMES {
             assert!(NAMES.contains(name) && !NAMES.contains(other), "{other}");
         }
-        for word in ["PDMS", "rubber", "PTFE", "5", ""] {
+        for word in ["rubber", "WC/C", "5", ""] {
             assert_eq!(hint(word), "give `young` and `poisson` of a material that is not in the list");
         }
     }

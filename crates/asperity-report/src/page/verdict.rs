@@ -13,7 +13,12 @@ use crate::words::numbers::change;
 pub(super) fn sentence(found: &PageData, answers: &[Answer]) -> String {
     let answers =
         answers.iter().map(|answer| answer.sentence.clone()).filter(|sentence| !sentence.is_empty());
-    answers.chain([of_contact(found)]).collect::<Vec<_>>().join(" ")
+    let layers = last_stress(found).and_then(layers_in_words);
+    answers.chain(layers).chain([of_contact(found)]).collect::<Vec<_>>().join(" ")
+}
+
+fn last_stress<'a>(found: &'a PageData<'_>) -> Option<&'a SubsurfaceRecord> {
+    found.summary.as_ref()?.subsurface.last()
 }
 
 /// The contact in a sentence.
@@ -59,7 +64,7 @@ fn of_passes(found: &PageData, last: &PassRecord) -> String {
     if let Some(temperature) = largest_temperature(found, last) {
         text += &format!("The surfaces reach {} °C. ", format_number(temperature - CELSIUS));
     }
-    if let Some(stress) = found.summary.as_ref().and_then(|summary| summary.subsurface.last()) {
+    if let Some(stress) = last_stress(found) {
         text += &format!("{} ", of_stress(stress));
     }
     text + &of_roughness(found, last)
@@ -69,19 +74,25 @@ fn of_passes(found: &PageData, last: &PassRecord) -> String {
 fn of_stress(stress: &SubsurfaceRecord) -> String {
     let [x, y, depth] = stress.position.map(|length| format(length, Dimension::Length));
     let most = format(stress.max_von_mises, Dimension::Pressure);
-    let layers = layers_in_words(stress).map_or(String::new(), |layers| format!(" {layers}"));
-    format!("The largest von Mises stress is {most}, {depth} below the surface at x = {x}, y = {y}.{layers}")
+    let place = if stress.position[2] > 0.0 {
+        format!("{depth} below the surface")
+    } else {
+        "at the surface".to_owned()
+    };
+    format!("The largest von Mises stress is {most}, {place} at x = {x}, y = {y}.")
 }
 
 /// What cracks layers and takes them off, in a sentence; `None` of bodies without layers.
 pub fn layers_in_words(stress: &SubsurfaceRecord) -> Option<String> {
     let write = |stress: f64| format(stress, Dimension::Pressure);
-    let surface = format!("The surface is stretched by up to {}", write(stress.max_surface_tension?));
+    let [x, y, _] = stress.max_surface_tension_position?.map(|length| format(length, Dimension::Length));
+    let tension = write(stress.max_surface_tension?);
+    let surface = format!("The surface is stretched by up to {tension} at x = {x}, y = {y}");
     let interfaces = stress.max_interface_shear.zip(stress.max_interface_tension);
     Some(match interfaces {
         Some((shear, tension)) => {
             format!(
-                "{surface}, the interfaces are sheared by up to {} and pulled by up to {}.",
+                "{surface}; the interfaces are sheared by up to {} and pulled by up to {}.",
                 write(shear),
                 write(tension)
             )

@@ -8,7 +8,7 @@ use super::hardness::{Hardness, hardness};
 use super::source::{Source, TopographySpec};
 use asperity_base::beside::{Beside, Scale};
 use asperity_base::choice::choice;
-use asperity_base::error::{Error, Result};
+use asperity_base::error::Result;
 use asperity_base::exists;
 use asperity_base::table::{self, Key, Table as _};
 use asperity_base::units::{Pascal, known_or_inf, or_inf};
@@ -210,8 +210,13 @@ impl BodyKeys {
         let named = self.material;
         let [young, poisson] = match self.base {
             Base::HalfSpace => [
-                elastic_constant(source, "young", self.young, named.map(|named| named.young))?,
-                elastic_constant(source, "poisson", self.poisson, named.map(|named| named.poisson))?,
+                NamedMaterial::constant(source, key("young"), self.young, named.map(|named| named.young))?,
+                NamedMaterial::constant(
+                    source,
+                    key("poisson"),
+                    self.poisson,
+                    named.map(|named| named.poisson),
+                )?,
             ],
             Base::Rigid => [Pascal::INFINITY, 0.0],
         };
@@ -325,22 +330,6 @@ impl Body {
             properties: self.properties.clone(),
         }
     }
-}
-
-/// Returns a constant that is given or that of a named material; one of them must be there.
-fn elastic_constant(
-    source: &dyn table::Source,
-    name: &str,
-    given: Option<f64>,
-    named: Option<f64>,
-) -> Result<f64> {
-    given.or(named).ok_or_else(|| match source.missing(key(name)) {
-        Error::Case(mut error) => {
-            error.hint = error.hint.map(|hint| hint + ", or `material = \"steel\"`");
-            Error::Case(error)
-        }
-        error => error,
-    })
 }
 
 /// Returns an error at the first of the `keys` that is given, if `is_meaningless`. The message has the key in place of `{key}`.

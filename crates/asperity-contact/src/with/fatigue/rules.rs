@@ -32,9 +32,9 @@ pub(super) const RULES: &[Rule<Fatigue>] = &[
     },
     Rule {
         this: "[fatigue]",
-        with: "a coated body that has limits",
-        message: "the stress below a coating is not computed",
-        hint: "leave the limits of the coated body out",
+        with: "a body with layers that has limits",
+        message: "the limits of fatigue are those of one material, and a body with layers has several",
+        hint: "leave the limits of the body with layers out; [subsurface] computes its largest stresses, layer by layer",
         at: "fatigue",
         example: &[
             LIMITS,

@@ -240,7 +240,7 @@ mod tests {
         check::<Attraction>("");
         check::<Lubricant>("viscosity = 0.04\npressure_viscosity = 2e-8\nspeed = 1");
         check::<SubsurfaceSpec>("");
-        check::<Coating>("");
+        check::<Coating>("young = 1e9\npoisson = 0.3");
         check::<Viscoelasticity>("moduli = [1e6]\ntimes = [1]");
         check::<Steady>("speed = 1");
         check::<Contact>("load = 1");
@@ -263,7 +263,7 @@ mod tests {
         check_table::<Output>("");
         check_table::<Acceleration>("");
         check_table::<Temperature>("bulk = 300");
-        check_table::<Coating>("thickness = 1\nyoung = 1e9\npoisson = 0.3");
+        check_table::<Coating>("thickness = 1\nmaterial = \"dlc\"");
         check_table::<Steady>("speed = 1");
         check_table::<PlasticRegion>("depth = 1\nlayers = 2");
         check_table::<Yielding>("yield_stress = 1e9\nkinematic = 1e9");
