@@ -295,11 +295,6 @@ impl Law {
         [Edge::Low, Edge::Median, Edge::High].into_iter().all(rises)
     }
 
-    /// Length over which the pressure falls by e below the least computed one, of the median.
-    pub fn tail_decay(&self) -> Metre {
-        self.least(Edge::Median).1
-    }
-
     /// Gaps of an edge: under the same pressure the softer one has the smaller gap.
     pub(super) fn gaps(&self, edge: Edge) -> Vec<f64> {
         self.values(Kind::MeanGap, edge).expect("each sample has a gap")
