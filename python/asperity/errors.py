@@ -33,6 +33,7 @@ __all__ = [
     "FailedCases",
     "File",
     "FileProblem",
+    "FilmNotConverged",
     "GridMismatch",
     "InUse",
     "InternalError",
@@ -242,6 +243,15 @@ class NotConverged(Failed):
     iterations: Annotated[int, "Iterations spent."]
     residual: Annotated[float, "Scale-free complementarity residual η reached."]
     tolerance: Annotated[float, "The requested η."]
+
+
+@described
+class FilmNotConverged(Failed):
+    """The iteration for a film of oil stopped above the tolerance."""
+
+    iterations: Annotated[int, "Iterations spent."]
+    residual: Annotated[float, "Scale-free residual reached."]
+    tolerance: Annotated[float, "The requested residual."]
 
 
 @described

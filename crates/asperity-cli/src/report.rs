@@ -143,6 +143,7 @@ fn code(error: &Error) -> u8 {
         Error::BeyondPlasticLimit { .. }
         | Error::BeyondFriction { .. }
         | Error::NotConverged { .. }
+        | Error::FilmNotConverged { .. }
         | Error::PlasticNotConverged { .. }
         | Error::Memory { .. }
         | Error::DeviceMemory { .. }
@@ -322,6 +323,9 @@ fn hint(error: &Error) -> Option<String> {
         Error::NotConverged { .. } => {
             Some("raise `tolerance` in [contact], or try another `method` there".to_owned())
         }
+        Error::FilmNotConverged { .. } => Some(
+            "thin films between rough bodies are the hardest: smooth the shortest waves with an `s_filter`, or give a higher speed or a lower load".to_owned(),
+        ),
         Error::PeriodicFullContact { mean_gap, .. } => Some(format!(
             "give an approach below {}, or a load, which also holds in full contact",
             units::format(*mean_gap, Dimension::Length)

@@ -215,7 +215,8 @@ pub(crate) fn closed_form<'py>(
 pub(crate) type Constants = (f64, f64, Vec<[f64; 3]>);
 
 pub(crate) fn material((young, poisson, layers): Constants) -> Result<Material> {
-    let layers = layers.into_iter().map(|[thickness, young, poisson]| Coating::new(thickness, young, poisson));
+    let layers =
+        layers.into_iter().map(|[thickness, young, poisson]| Coating::new(thickness, young, poisson));
     Ok(Material::elastic(young, poisson)?.layered(layers.collect::<Result<_>>()?))
 }
 

@@ -139,6 +139,18 @@ impl Plan {
             Side::Lower => &case.lower,
             Side::Upper => &case.upper,
         };
+        let thickness = body.material.layers.iter().map(|layer| layer.thickness).sum::<Metre>();
+        let deepest = [("to", Some(spec.to)), ("planes", spec.planes.iter().copied().reduce(f64::max))];
+        let rigid = body.material.is_layered() && body.material.young.is_infinite();
+        for (key, depth) in deepest {
+            if let Some(depth) = depth.filter(|depth| rigid && *depth > thickness * (1.0 + 1e-12)) {
+                let [depth, end] = [depth, thickness].map(|length| units::format(length, Dimension::Length));
+                let message = format!(
+                    "'{key}' goes down to {depth}, but the stress in a rigid base, below {end}, is not determined"
+                );
+                return Err(error(key, message));
+            }
+        }
         Ok(Some(Self {
             index,
             depths: (0..=spec.layers).map(|k| k as f64 * spec.to / spec.layers as f64).collect(),

@@ -234,6 +234,18 @@ pub enum Error {
         /// The requested η.
         tolerance: f64,
     },
+    /// The iteration for a film of oil stopped above the tolerance.
+    #[error(
+        "no film in equilibrium after {iterations} iterations: residual {residual:.2e}, tolerance {tolerance:.2e}"
+    )]
+    FilmNotConverged {
+        /// Iterations spent.
+        iterations: usize,
+        /// Scale-free residual reached.
+        residual: f64,
+        /// The requested residual.
+        tolerance: f64,
+    },
     /// An approach at which a periodic contact has no solution: the mean displacement is free there.
     #[error(
         "approach {} closes the whole periodic gap (mean gap {})",
@@ -514,6 +526,7 @@ impl Error {
             Self::NotFinite { .. }
             | Self::WornAway { .. }
             | Self::NotConverged { .. }
+            | Self::FilmNotConverged { .. }
             | Self::PlasticNotConverged { .. } => at(Box::new(self)),
             other => other,
         }

@@ -31,6 +31,11 @@ impl Lubrication {
         self.sliding.unwrap_or(2.0 * speed)
     }
 
+    /// Returns the friction coefficient of solids that slide at this speed; 0 if they roll.
+    pub fn solid_friction_at(&self, sliding: MetrePerSecond) -> f64 {
+        if sliding > 0.0 { self.solid_friction } else { 0.0 }
+    }
+
     pub(crate) fn problem<'a>(&self, gap: &'a Field, control: Control) -> FilmProblem<'a> {
         let Self { oil, boundary_film, ends, .. } = *self;
         FilmProblem { gap, oil, speed: 0.0, boundary_film, control, ends, step: None }

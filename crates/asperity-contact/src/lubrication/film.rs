@@ -164,7 +164,7 @@ impl FilmProblem<'_> {
 /// some pressure: without any, the flow does not depend on the approach.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for numbers without a meaning; [`Error::NotConverged`] if the residual stays above the
+/// [`Error::OutOfRange`] for numbers without a meaning; [`Error::FilmNotConverged`] if the residual stays above the
 /// tolerance. A step of time should then be halved, and a speed approached from its neighbours.
 ///
 /// # Panics
@@ -182,7 +182,7 @@ pub fn solve_film(
     let reached = newton.solve(problem.state(start), params.tolerance, params.max_iterations);
     let Reached { state, h, residual, iterations } = reached;
     if residual.is_nan() || residual > params.tolerance {
-        return Err(Error::NotConverged { iterations, residual, tolerance: params.tolerance });
+        return Err(Error::FilmNotConverged { iterations, residual, tolerance: params.tolerance });
     }
     let (krylov, convolutions) = (newton.krylov, newton.convolutions);
     let oil = flow.stored(&state.oil, &state.cavity, &h);

@@ -129,7 +129,7 @@ impl FilmSpeeds {
     /// Solves for the film at a speed > 0, or at rest between ends with a pressure.
     ///
     /// # Errors
-    /// As [`solve_film`]; [`Error::OutOfRange`] for a speed that is not positive, [`Error::NotConverged`] if no way
+    /// As [`solve_film`]; [`Error::OutOfRange`] for a speed that is not positive, [`Error::FilmNotConverged`] if no way
     /// leads to the film.
     pub fn film_at(&mut self, operator: &mut dyn Operator, speed: f64) -> Result<FilmAtSpeed> {
         let is_driven = speed > 0.0 || speed == 0.0 && self.ends != [0.0; 2];
@@ -140,7 +140,7 @@ impl FilmSpeeds {
         });
         let half = match &mut self.half {
             Some(half) => match half.films.film_at(&mut *half.operator, speed) {
-                Err(Error::NotConverged { .. }) => None,
+                Err(Error::FilmNotConverged { .. }) => None,
                 found => Some((*half.operator.grid(), found?.solution)),
             },
             None => None,
@@ -247,7 +247,7 @@ impl FilmSpeeds {
                         return Ok(solution);
                     }
                 }
-                Err(Error::NotConverged { .. }) if duration > SHORTEST * transit => {
+                Err(Error::FilmNotConverged { .. }) if duration > SHORTEST * transit => {
                     duration /= LONGER * LONGER
                 }
                 Err(error) => return Err(error),
@@ -266,7 +266,7 @@ impl FilmSpeeds {
     /// Returns the solution from this start; none if it does not converge.
     fn tried(&self, operator: &mut dyn Operator, speed: f64, start: &Film) -> Result<Option<FilmSolution>> {
         match solve_film(operator, &self.problem(speed), start, &self.params) {
-            Err(Error::NotConverged { .. }) => Ok(None),
+            Err(Error::FilmNotConverged { .. }) => Ok(None),
             solution => solution.map(Some),
         }
     }

@@ -50,7 +50,7 @@ impl FilmMeasure {
         sliding: MetrePerSecond,
         hardness: Option<&CellValues>,
     ) -> (FilmForces, FilmRecord) {
-        let Lubrication { shear, solid_friction, .. } = self.lubrication;
+        let shear = self.lubrication.shear;
         let forces = FilmForces::new(problem, solution, grid, self.boundary, sliding, shear);
         let (oil, solids) = (flat(&solution.film.oil_pressure), flat(&solution.film.solid_pressure));
         let borne = oil.iter().zip(solids).map(|(oil, solids)| oil + solids);
@@ -65,7 +65,7 @@ impl FilmMeasure {
             min_film: solution.thickness.iter().copied().fold(f64::INFINITY, f64::min),
             lambda: self.roughness.map(|roughness| mean_film / roughness),
             solid_share: forces.solid_share(),
-            traction_coefficient: forces.friction_coefficient(solid_friction),
+            traction_coefficient: forces.friction_coefficient(self.lubrication.solid_friction_at(sliding)),
             cavity_share: cavity.iter().filter(|empty| **empty > 0.0).count() as f64 / cavity.len() as f64,
             max_oil_pressure: oil.iter().copied().fold(0.0, f64::max),
             hardness_share: hardness.map_or(0.0, share),

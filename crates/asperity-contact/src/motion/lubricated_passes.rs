@@ -25,7 +25,7 @@ pub(super) fn check(pair: &Pair, boundary: Boundary, motion: &Motion, params: &P
     }
     pair.check_lubricated()?;
     params.device.only_processor("a device does not solve films of oil")?;
-    let speed = mean_speed(motion, Stroke::Forth);
+    let speed = mean_speed(motion, pair, Stroke::Forth);
     let refused = if speed.is_nan() {
         "lubricated bodies that pass over each other need a speed"
     } else if speed == 0.0 {
@@ -52,9 +52,9 @@ impl Solver<'_> {
     ) -> Result<Pass> {
         let pitch = pair.pitch();
         let is_overlap = self.motion.strategy == Strategy::Overlap;
-        let place = |index: usize| Place::new(self.motion, &self.positions[index]);
+        let place = |index: usize| Place::new(self.motion, pair, &self.positions[index]);
         let gap_at = |index: usize| place(index).turned_field(&pair.initial_gap(&self.positions[index]));
-        let speed_at = |index: usize| mean_speed(self.motion, self.positions[index].stroke).abs();
+        let speed_at = |index: usize| mean_speed(self.motion, pair, self.positions[index].stroke).abs();
         let last = self.positions.len() - 1;
         let mut begins = None;
         let mut operator = self.operators.on([place(0).columns, pair.lower.width()]);
@@ -73,7 +73,7 @@ impl Solver<'_> {
                 moving
             }
         };
-        let mut measure: Option<FilmMeasure> = None;
+        let longest = self.positions.iter().map(|position| position.columns).max();
         let mut contacts: Vec<Contact> = Vec::with_capacity(self.positions.len());
         let mut films = Vec::with_capacity(self.positions.len());
         for (index, position) in self.positions.iter().enumerate() {
@@ -85,10 +85,14 @@ impl Solver<'_> {
             if operator.grid().shape != grid.shape {
                 operator = self.operators.on(grid.shape);
             }
+            let above = gap.mapv(|gap| gap - lubrication.boundary_film);
+            let params = Params::default();
+            let dry = solve_normal(&mut *operator, &above, &Bounds::ELASTIC, control, None, &params)
+                .map_err(|error| self.at_position(index, error))?;
             let solution = match begins.take() {
                 Some(solution) => solution,
                 None => {
-                    moving.carry(place);
+                    moving.carry(place, &gap, &dry);
                     let cells = self.motion.cells_to_position(index, pair.lower.columns());
                     let motion = (speed, self.motion.time_of(cells, pitch[0]));
                     moving
@@ -97,18 +101,12 @@ impl Solver<'_> {
                 }
             };
             let problem = FilmProblem { speed, ..lubrication.problem(&gap, control) };
-            // In an overlap the dry contact changes from position to position.
-            if is_overlap || measure.is_none() {
-                let above = gap.mapv(|gap| gap - lubrication.boundary_film);
-                let params = Params::default();
-                let dry = solve_normal(&mut *operator, &above, &Bounds::ELASTIC, control, None, &params)
-                    .map_err(|error| self.at_position(index, error))?;
-                measure = Some(FilmMeasure::new(pair, *lubrication, &gap, &dry.pressure, (&grid, boundary)));
-            }
-            let measure = measure.as_ref().expect("measured at the first position");
+            let measure = FilmMeasure::new(pair, *lubrication, &gap, &dry.pressure, (&grid, boundary));
             let hardness = pair.yields().then(|| place.turned_values(pair.bounds(position).upper()));
             let sliding = self.motion.sliding_speed();
-            let (forces, film) = measure.record(&problem, &solution, &grid, sliding, hardness.as_ref());
+            let (forces, mut film) = measure.record(&problem, &solution, &grid, sliding, hardness.as_ref());
+            // A contact that enters or leaves has a short inlet.
+            film.inlet_ratio = film.inlet_ratio.filter(|_| longest == Some(place.columns));
             let load = forces.oil_load + forces.solid_load;
             // Bodies that roll have 0, and not −0.
             let direction = position.stroke.sign() * self.motion.strategy.direction() + 0.0;
@@ -161,5 +159,5 @@ fn solids_and_oil(
     sliding: MetrePerSecond,
 ) -> Field {
     let oil = field_like(problem.gap, &problem.shear_stress(solution, sliding, lubrication.shear));
-    oil + lubrication.solid_friction * &solution.film.solid_pressure
+    oil + lubrication.solid_friction_at(sliding) * &solution.film.solid_pressure
 }

@@ -8,7 +8,7 @@ use crate::motion::kinematics::{Motion, Strategy};
 use crate::motion::pair::Pair;
 use crate::motion::path::{Position, Stroke};
 use crate::operator::Operator;
-use crate::solver::Control;
+use crate::solver::{Control, Solution};
 use crate::units::{MetrePerSecond, Second};
 
 /// Most times that a step of time is halved.
@@ -19,14 +19,23 @@ pub(super) const HALVINGS: usize = 6;
 const OIL: &str = "oil_content";
 const APPROACH: &str = "oil_approach";
 
-/// Mean speed of both surfaces along x in the frame of the contact, which in an overlap is that of the upper body; NaN
-/// if it is not known.
-pub(super) fn mean_speed(motion: &Motion, stroke: Stroke) -> MetrePerSecond {
+/// Mean speed of both surfaces along x in the frame of the film; NaN if it is not known.
+///
+/// In an overlap it is the frame of the shorter body, in which the ends of the contact stay where they are as long as the
+/// bodies overlap as far as they can. It is that of the upper body if both are as long.
+pub(super) fn mean_speed(motion: &Motion, pair: &Pair, stroke: Stroke) -> MetrePerSecond {
     let forth = match motion.strategy {
         Strategy::Shift { speed_lower, speed_upper } => 0.5 * (speed_lower + speed_upper),
-        Strategy::Overlap => -0.5 * motion.speed.unwrap_or(f64::NAN),
+        Strategy::Overlap => {
+            let speed = motion.speed.unwrap_or(f64::NAN);
+            if stays_on_lower(pair) { 0.5 * speed } else { -0.5 * speed }
+        }
     };
     stroke.sign() * forth
+}
+
+fn stays_on_lower(pair: &Pair) -> bool {
+    pair.lower.columns() < pair.upper.columns()
 }
 
 /// Where the columns of a film lie. They are counted from its inlet.
@@ -41,12 +50,14 @@ pub(super) struct Place {
 }
 
 impl Place {
-    pub(super) fn new(motion: &Motion, position: &Position) -> Self {
+    pub(super) fn new(motion: &Motion, pair: &Pair, position: &Position) -> Self {
         let start = match motion.strategy {
+            Strategy::Overlap if stays_on_lower(pair) => position.lower,
             Strategy::Overlap => position.upper,
             Strategy::Shift { .. } => 0,
         };
-        Self { columns: position.columns, start, is_reversed: mean_speed(motion, position.stroke) < 0.0 }
+        let is_reversed = mean_speed(motion, pair, position.stroke) < 0.0;
+        Self { columns: position.columns, start, is_reversed }
     }
 
     /// The column of the contact that is this one from the inlet, or the other way round.
@@ -67,16 +78,11 @@ impl Place {
         }
     }
 
-    /// Returns a field that lies here at another place; the nearest column counts where there was none.
-    fn carry(&self, field: &Field, to: &Self) -> Field {
-        if self == to {
-            return field.clone();
-        }
-        Field::from_shape_fn((to.columns, field.ncols()), |(i, j)| {
-            let column = to.start + to.turned(i);
-            let own = column.saturating_sub(self.start).min(self.columns - 1);
-            field[(self.turned(own), j)]
-        })
+    /// Returns the column here that is a `column` at another place, or the nearest one, and whether it is that one.
+    fn nearest(&self, to: &Self, column: usize) -> (usize, bool) {
+        let column = to.start + to.turned(column);
+        let own = column.saturating_sub(self.start).min(self.columns - 1);
+        (self.turned(own), self.start + own == column)
     }
 }
 
@@ -129,18 +135,41 @@ impl<'a> MovingFilm<'a> {
         keep(APPROACH, "m", approach);
     }
 
-    /// Carries the film to another place. Columns that were none before have the film of the nearest one.
-    pub(super) fn carry(&mut self, to: Place) {
-        let at = |field: &Field| self.place.carry(field, &to);
+    /// Carries the film to another place, with this `gap`. Oil without pressure fills the columns that were none before,
+    /// whose surfaces are displaced as those of the nearest column. A film that bears nothing there starts from the `dry`
+    /// contact.
+    pub(super) fn carry(&mut self, to: Place, gap: &Field, dry: &Solution) {
+        if self.place == to {
+            return;
+        }
         let Film { oil_pressure, solid_pressure, cavity, approach } = &self.film;
-        let film = Film {
-            oil_pressure: at(oil_pressure),
-            solid_pressure: at(solid_pressure),
-            cavity: at(cavity),
+        let at = |of: &dyn Fn((usize, usize)) -> f64,
+                  fresh: &dyn Fn((usize, usize), (usize, usize)) -> f64| {
+            Field::from_shape_fn(gap.raw_dim(), |(i, j)| match self.place.nearest(&to, i) {
+                (column, true) => of((column, j)),
+                (column, false) => fresh((column, j), (i, j)),
+            })
+        };
+        let old = |field: &Field| at(&|cell| field[cell], &|_, _| 0.0);
+        let thickness = |cell: (usize, usize)| {
+            let density = self.lubrication.oil.under(oil_pressure[cell]).density;
+            self.oil[cell] / (density * (1.0 - cavity[cell]).max(f64::EPSILON))
+        };
+        let full = |near: (usize, usize), cell: (usize, usize)| {
+            (thickness(near) + gap[cell] - self.gap[near]).max(self.lubrication.boundary_film)
+        };
+        let mut film = Film {
+            oil_pressure: old(oil_pressure),
+            solid_pressure: old(solid_pressure),
+            cavity: old(cavity),
             approach: *approach,
         };
-        let (gap, oil) = (at(&self.gap), at(&self.oil));
-        *self = Self { place: to, gap, film, oil, ..*self };
+        if film.oil_pressure.sum() + film.solid_pressure.sum() == 0.0 {
+            film = Film::dry(dry.pressure.clone(), dry.approach);
+        }
+        let oil = at(&|cell| self.oil[cell], &full);
+        let before = at(&|cell| self.gap[cell], &|_, cell| gap[cell]);
+        *self = Self { place: to, gap: before, film, oil, ..*self };
     }
 
     /// Advances to a gap in a time at a mean speed. A step that does not end is halved, up to so many times: in between
@@ -155,7 +184,7 @@ impl<'a> MovingFilm<'a> {
         let step = Some(OilStep { before: flat(&self.oil), duration });
         let problem = FilmProblem { speed, step, ..self.lubrication.problem(after, self.control) };
         match solve_film(operator, &problem, &self.film, &FilmParams::default()) {
-            Err(Error::NotConverged { .. }) if halvings > 0 => {
+            Err(Error::FilmNotConverged { .. }) if halvings > 0 => {
                 let middle = 0.5 * (&self.gap + after);
                 let half = (speed, 0.5 * duration);
                 let first = self.advance(operator, &middle, half, halvings - 1)?;

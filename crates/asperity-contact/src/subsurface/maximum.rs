@@ -1,9 +1,6 @@
 //! Search for the most stressed point.
 
-use super::layers::{Face, InLayer, LayerStress, by_layer, faces};
 use super::{Plane, Subsurface};
-use crate::kernel::Stack;
-use crate::math::parallel;
 use crate::units::{Metre, Pascal};
 
 /// A largest value and its place.
@@ -51,88 +48,56 @@ impl Plane {
     }
 }
 
-/// The stress on planes from the surface of a body down.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Survey<T> {
-    /// The largest stresses on the planes, at both sides of interfaces between layers, and near the most stressed point.
-    pub maximum: Maximum,
-    /// The largest stresses in each layer, and in the body below them; empty without layers.
-    pub layers: Vec<LayerStress>,
-    /// What was kept of each plane.
-    pub planes: Vec<T>,
-}
-
 impl Subsurface {
-    /// Returns the largest stresses on planes at the `depths`, see [`Self::survey`].
-    ///
-    /// # Panics
-    /// If there are no depths.
-    pub fn maximum(&self, depths: &[Metre]) -> Maximum {
-        self.survey(depths, |_, _| ()).maximum
-    }
-
-    /// Computes the planes at the `depths`, ascending, in parallel, with one plane per thread. Keeps what `look` returns
-    /// for each plane and the largest stresses on it.
-    ///
-    /// The maximum includes both sides of interfaces down to the last depth, and a few more planes near the most stressed
-    /// point. Each of these is at the vertex of a parabola in depth through the known von Mises stresses. The
-    /// depth is accurate to about a hundredth of the distance between the planes. Each value is that of a cell at
-    /// a depth, never interpolated.
-    ///
-    /// A layer includes both its faces and the planes between them. Layers that begin below the last depth are left out.
-    ///
-    /// # Panics
-    /// If there are no depths.
-    pub fn survey<T: Send>(&self, depths: &[Metre], look: impl Fn(Plane, &Maximum) -> T + Sync) -> Survey<T> {
-        let last = *depths.last().expect("there are depths");
-        let tops = self.stack.as_ref().map_or_else(Vec::new, Stack::interfaces);
-        let mut places: Vec<_> = depths.iter().map(|depth| (self.layer_at(*depth), *depth)).collect();
-        for face in faces(&tops, last) {
-            if !places.contains(&face) {
-                places.push(face);
-            }
-        }
-        let found = parallel::tasks(places.iter().enumerate(), |(k, &(layer, depth))| {
-            let plane = self.plane_in(layer, depth);
-            let most = plane.maximum();
-            let face = tops.contains(&depth).then(|| Face::new(&plane));
-            let kept = (k < depths.len()).then(|| look(plane, &most));
-            (most, InLayer { layer, depth, von_mises: most.von_mises, face }, kept)
-        });
-        let mut most: Option<Maximum> = None;
-        let (mut in_layers, mut planes) = (Vec::new(), Vec::new());
-        for (here, in_layer, kept) in found {
-            if kept.is_some() || (in_layer.depth > 0.0 && in_layer.depth <= last) {
-                most = Some(most.map_or(here, |most| most.or(here)));
-            }
-            in_layers.push(in_layer);
-            planes.extend(kept);
-        }
-        in_layers.sort_by(|one, other| one.depth.total_cmp(&other.depth));
-        let maximum = self.refined(most.expect("there are depths"), depths);
-        Survey { maximum, layers: by_layer(&tops, last, &in_layers), planes }
-    }
-
-    /// Returns the largest stresses on the planes at the `depths`, and on a few more near the most stressed one.
-    fn refined(&self, mut most: Maximum, depths: &[Metre]) -> Maximum {
+    /// Returns the largest stresses on planes, each with its layer, and on a few more near the most stressed one.
+    pub(super) fn refined(&self, planes: &mut [(usize, Maximum)]) -> Maximum {
         /// Number of refinements, each with a smaller depth interval around the largest stress so far.
         const REFINEMENTS: usize = 4;
-        let middle = depths.iter().position(|depth| *depth == most.von_mises.depth);
-        // Three planes with the most stressed one in the middle; `None` at the ends of the depths.
-        let Some(beside) = middle.filter(|k| (1..depths.len() - 1).contains(k)) else { return most };
-        let mut around = [beside - 1, beside, beside + 1].map(|k| self.plane(depths[k]));
+        let mut most = planes.iter().map(|(_, plane)| *plane).reduce(Maximum::or).expect("there are depths");
+        planes.sort_by(|(a, one), (b, other)| {
+            one.von_mises.depth.total_cmp(&other.von_mises.depth).then(a.cmp(b))
+        });
+        let Some((layer, mut around)) = self.bracket(planes, &mut most) else { return most };
         for _ in 0..REFINEMENTS {
             let cell = most.von_mises.cell;
             let Some(depth) = vertex(around.each_ref().map(|p| [p.depth, p.stress(cell).von_mises()])) else {
                 break;
             };
-            let plane = self.plane(depth);
+            let plane = self.plane_in(layer, depth);
             let found = plane.maximum();
             around = narrowed(around, plane, found.von_mises.value > most.von_mises.value);
             most = most.or(found);
         }
         most
+    }
+
+    /// Returns three planes in a layer, and the layer, with the most stressed one in the middle; `None` at the ends of the
+    /// planes. Beside an interface it is looked for halfway to the next plane.
+    fn bracket(&self, planes: &[(usize, Maximum)], most: &mut Maximum) -> Option<(usize, [Plane; 3])> {
+        let depth = |k: usize| planes[k].1.von_mises.depth;
+        let at_most = most.von_mises.depth;
+        let mut best = None;
+        for k in (1..planes.len() - 1).filter(|k| depth(*k) == at_most) {
+            let layer = planes[k].0;
+            let plane = |depth: Metre| self.plane_in(layer, depth);
+            let inside =
+                [k - 1, k + 1].map(|beside| Some(beside).filter(|beside| planes[*beside].0 == layer));
+            let beside = match inside {
+                [Some(above), Some(below)] => {
+                    return Some((layer, [depth(above), at_most, depth(below)].map(plane)));
+                }
+                [above, below] => above.or(below),
+            };
+            let Some(beside) = beside else { continue };
+            let middle = plane(0.5 * (at_most + depth(beside)));
+            let found = middle.maximum();
+            if found.von_mises.value > most.von_mises.value {
+                *most = most.or(found);
+                let [above, below] = [at_most.min(depth(beside)), at_most.max(depth(beside))].map(plane);
+                best = Some((layer, [above, middle, below]));
+            }
+        }
+        best
     }
 }
 
@@ -164,7 +129,7 @@ impl Extreme {
 
 impl Maximum {
     /// Returns the larger of each; the first of equal ones.
-    fn or(self, other: Self) -> Self {
+    pub(super) fn or(self, other: Self) -> Self {
         Self { von_mises: self.von_mises.or(other.von_mises), shear: self.shear.or(other.shear) }
     }
 }

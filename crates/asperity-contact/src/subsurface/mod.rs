@@ -27,11 +27,13 @@ mod layered;
 mod layers;
 mod maximum;
 mod response;
+mod survey;
 
 pub use layered::LayeredStress;
 pub use layers::LayerStress;
-pub use maximum::{Extreme, Maximum, Survey};
+pub use maximum::{Extreme, Maximum};
 pub use response::StressAtDepth;
+pub use survey::Survey;
 
 use asperity_transforms::num_complex::Complex64;
 use ndarray::{Array1, Array2, Axis, s};
@@ -144,15 +146,20 @@ impl Subsurface {
         &self.grid
     }
 
-    /// Returns the stress at `depth` ≥ 0; at 0 its limit from inside the body, at an interface that from below.
+    /// Returns the stress at `depth` ≥ 0; at 0 its limit from inside the body, at an interface that from below, but
+    /// from above on a rigid base.
     pub fn plane(&self, depth: Metre) -> Plane {
         self.plane_in(self.layer_at(depth), depth)
     }
 
-    /// Returns the number of the layer at a depth, at an interface the one below.
+    /// Returns the number of the layer at a depth, at an interface the one below, unless it is a rigid base.
     fn layer_at(&self, depth: Metre) -> usize {
-        let tops = self.stack.as_ref().map(Stack::interfaces);
-        tops.and_then(|tops| tops.iter().rposition(|top| *top <= depth)).unwrap_or(0)
+        let Some(stack) = &self.stack else { return 0 };
+        let tops = stack.interfaces();
+        let base = tops.len() - 1;
+        let reaches =
+            |n: &usize| tops[*n] < depth || (tops[*n] == depth && !(*n == base && stack.has_rigid_base()));
+        (0..tops.len()).rev().find(reaches).unwrap_or(0)
     }
 
     /// Returns the stress at a `depth` in a layer or at its faces; the body below all layers is the last one.
@@ -686,6 +693,9 @@ mod tests {
             let most = plain.maximum(&[0.0, 0.8, 1.6, 0.5, 1.0, 1.5, 2.0]).von_mises;
             let layers = layered.survey(&depths, |_, _| ()).layers;
             assert_eq!(layers.iter().map(|layer| layer.depth).collect::<Vec<_>>(), [0.0, 0.8, 1.6]);
+            // Beside an interface, too, the search goes on.
+            let [refined, whole] = [&layered, &plain].map(|body| body.maximum(&depths).von_mises);
+            assert!(refined.value >= (1.0 - 1e-3) * whole.value, "{refined:?} {whole:?}");
             let found = layers.iter().map(|layer| layer.von_mises.value).fold(0.0, f64::max);
             assert_relative_eq!(found, most.value, max_relative = 10.0 * tolerance);
         }
@@ -726,6 +736,7 @@ mod tests {
         for boundary in [Boundary::PERIODIC, Boundary::FREE] {
             let body = Subsurface::new(grid, boundary, 0.0, &tractions).with_layers(stack.clone());
             assert!(body.plane(1.0).stress.iter().flatten().all(|stress| *stress == 0.0));
+            assert_eq!(body.plane(0.8).stress, body.plane_in(0, 0.8).stress);
             let layers = body.survey(&[0.0, 0.5, 1.0], |_, _| ()).layers;
             let lower = body.plane_in(0, 0.8);
             assert_eq!(layers[1].shear, lower.largest(|stress| stress.xz.hypot(stress.yz)).value);

@@ -193,7 +193,7 @@ fn films_of_random_motions_leave_no_residual() {
                 let problem = FilmProblem { step, control, ..problem(gap, speed, load) };
                 match solve_film(&mut *operator, &problem, &now.film, &FilmParams::default()) {
                     Ok(solution) => now = solution,
-                    Err(Error::NotConverged { .. }) if whole => {
+                    Err(Error::FilmNotConverged { .. }) if whole => {
                         whole = false;
                         continue;
                     }
@@ -349,10 +349,10 @@ fn a_film_without_a_meaning_is_refused() {
     assert!(matches!(error, Error::Unsupported(_)), "{error}");
     let nothing = Film::dry(Field::zeros([8, 8]), -1e-7);
     let error = solve_film(&mut operator, &good, &nothing, &FilmParams::default()).unwrap_err();
-    assert!(matches!(error, Error::NotConverged { residual, .. } if residual.is_nan()), "{error}");
+    assert!(matches!(error, Error::FilmNotConverged { residual, .. } if residual.is_nan()), "{error}");
     let few = FilmParams { max_iterations: 2, ..FilmParams::default() };
     let error = solve_film(&mut operator, &good, &start, &few).unwrap_err();
-    assert!(matches!(error, Error::NotConverged { iterations: 2, .. }), "{error}");
+    assert!(matches!(error, Error::FilmNotConverged { iterations: 2, .. }), "{error}");
 }
 
 #[test]

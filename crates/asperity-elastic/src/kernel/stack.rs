@@ -160,6 +160,11 @@ impl Stack {
         tops
     }
 
+    /// Whether the body below the layers is rigid.
+    pub fn has_rigid_base(&self) -> bool {
+        self.base.shear.is_infinite()
+    }
+
     /// Computes the stress of waves of wavenumber q ≥ 0 at a `depth` in a layer; the body below all layers is the last one. At
     /// q = 0 the traction is uniform, and the body cannot widen. A rigid body has no stress.
     ///

@@ -19,10 +19,15 @@ const WORDS: [(&str, &str); 13] = [
 
 /// The words for a dotted key of a case: `Sq of the lower body`.
 pub(super) fn of_key(key: &str) -> String {
-    let name = key.rsplit('.').next().unwrap_or(key);
-    match key.split('.').next() {
-        Some(body @ ("lower" | "upper")) if body != name => format!("{} of the {body} body", plain(name)),
-        _ => plain(name),
+    let name = plain(key.rsplit('.').next().unwrap_or(key));
+    match key.split('.').collect::<Vec<_>>()[..] {
+        [body @ ("lower" | "upper"), "layers", layer, _] => match layer.parse::<usize>() {
+            Ok(index) => format!("{name} of layer {} of the {body} body", index + 1),
+            Err(_) => format!("{name} of the {body} body"),
+        },
+        [body @ ("lower" | "upper"), "coating", _] => format!("{name} of the coating of the {body} body"),
+        [body @ ("lower" | "upper"), _, ..] => format!("{name} of the {body} body"),
+        _ => name,
     }
 }
 
@@ -50,6 +55,8 @@ mod tests {
     fn keys_and_columns_become_words() {
         assert_eq!(of_key("lower.topography.sq"), "Sq of the lower body");
         assert_eq!(of_key("contact.load"), "load");
+        assert_eq!(of_key("lower.layers.1.young"), "young of layer 2 of the lower body");
+        assert_eq!(of_key("upper.coating.thickness"), "thickness of the coating of the upper body");
         assert_eq!(of_column("wear_volume_upper"), "wear volume of the upper body");
         assert_eq!(of_column("max_pressure"), "largest pressure");
     }

@@ -21,7 +21,7 @@ use asperity_base::math::parallel;
 use asperity_base::math::sum::sums;
 use asperity_base::units::{self, Dimension, Metre, Newton, Pascal, Second, SquareMetre};
 use asperity_contact::lubrication::Lubrication;
-use asperity_contact::material::{Compliances, plastic_share};
+use asperity_contact::material::{Coating, Compliances, Material, plastic_share};
 use asperity_contact::motion::{
     LoadControl, Paraboloid, Position, Stage, Strategy, check_limit, initial_gap, opposing_values,
 };
@@ -458,15 +458,27 @@ fn thin(name: &str, case: &Case, pitch: [Metre; 2]) -> Option<String> {
     let layers = &body.material.layers;
     let cell = pitch[0].max(pitch[1]);
     let total = layers.iter().map(|layer| layer.thickness).sum::<Metre>();
-    let thinnest = || layers.iter().enumerate().find(|(_, layer)| layer.thickness < LEAST * cell);
+    // Layers that lie deeper than a cell are not felt as such, nor parts of a layer.
+    let thinnest = || {
+        let alike = |one: &Coating, other: &Coating| [one.young, one.poisson] == [other.young, other.poisson];
+        let mut depth = 0.0;
+        let mut number = 0;
+        layers.chunk_by(alike).find_map(|layer| {
+            let thickness = layer.iter().map(|part| part.thickness).sum::<Metre>();
+            let found = (depth < cell && thickness < LEAST * cell).then_some((number, thickness));
+            depth += thickness;
+            number += layer.len();
+            found
+        })
+    };
     let (what, thickness, than) = if layers.is_empty() {
         return None;
     } else if total < cell {
         let what = if layers.len() > 1 { "layers" } else { "coating" };
         (format!("the thickness of the {what}"), total, "a cell")
     } else {
-        let (n, layer) = thinnest()?;
-        (format!("the thickness of layer {}", n + 1), layer.thickness, "a tenth of a cell")
+        let (n, thickness) = thinnest()?;
+        (format!("the thickness of layer {}", n + 1), thickness, "a tenth of a cell")
     };
     let length = |value| units::format(value, Dimension::Length);
     Some(format!(
@@ -518,6 +530,20 @@ fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut
     prediction.curved
 }
 
+/// Returns the larger Dundurs' β of the surfaces of the bodies and of the bodies below their layers, unless the grid with
+/// this side does not feel these.
+fn dundurs(case: &Case, estimate: &Estimate, side: Metre) -> f64 {
+    let bodies = [&case.lower.material, &case.upper.material];
+    let [lower, upper] = bodies.map(|material| match material.layers.first() {
+        Some(layer) => Material { young: layer.young, poisson: layer.poisson, ..Material::clone(material) },
+        None => Material::clone(material),
+    });
+    let at_surfaces = Compliances::new(&lower, &upper).map_or(0.0, |pair| pair.dundurs());
+    let thickness = |material: &Material| material.layers.iter().map(|layer| layer.thickness).sum::<Metre>();
+    let covered = bodies.into_iter().any(|material| thickness(material) > side);
+    if covered || at_surfaces.abs() > estimate.dundurs.abs() { at_surfaces } else { estimate.dundurs }
+}
+
 /// Warns if friction is modelled more simply than the user may expect.
 fn frictional(
     case: &Case,
@@ -530,7 +556,7 @@ fn frictional(
     const ALIKE: f64 = 0.01;
     /// Dundurs' β from which the coupling changes pressures and stick by more than a few per cent.
     const UNLIKE: f64 = 0.1;
-    let beta = estimate.dundurs;
+    let beta = dundurs(case, estimate, bodies.lower.topography.grid().extent()[0]);
     if friction.coupling != Coupling::Full && beta.abs() > UNLIKE && !case.is_coated() {
         warnings.push(format!(
             "the bodies are dissimilar, Dundurs' β is {beta:.2}: `coupling = \"full\"` is exact"

@@ -288,6 +288,42 @@ fn a_ball_that_passes_over_a_plate_has_the_steady_film_in_the_middle() {
     );
 }
 
+/// The film is the same if the ball stands still and the plate passes over it.
+#[test]
+fn a_plate_that_passes_over_a_ball_has_the_films_of_the_ball_that_passes_over_the_plate() {
+    const BALL: &str =
+        "topography = { form = \"sphere\", radius = \"10 mm\", shape = [16, 12], pitch = \"32 um\" }";
+    let films = |lower: &str, upper: &str| {
+        let folder = tempfile::TempDir::new().unwrap();
+        let text = format!(
+            "lower = {{ material = \"steel\", {lower} }}\nupper = {{ material = \"steel\", {upper} }}\n\
+             contact = {{ load = \"4 N\" }}\nmotion = {{ speed = \"0.4 m/s\", control = \"step-load\" }}\n{OIL}"
+        );
+        let (_, results) = run(&parsed(&text), folder.path());
+        results.steps().unwrap().into_iter().map(|step| step.film.unwrap()).collect::<Vec<_>>()
+    };
+    for (columns, tolerance) in [(24, 1e-6), (16, 0.2)] {
+        let plate = format!("topography = {{ form = \"flat\", shape = [{columns}, 12], pitch = \"32 um\" }}");
+        let (ball_moves, plate_moves) = (films(&plate, BALL), films(BALL, &plate));
+        let middle = ball_moves.len() / 2;
+        assert!(ball_moves[middle].mean_film > 1e-8, "{:?}", ball_moves[middle]);
+        let (one, other) = (ball_moves[middle].mean_film, plate_moves[middle].mean_film);
+        assert!((one / other - 1.0).abs() < tolerance, "{columns}: {one:e} {other:e}");
+    }
+}
+
+#[test]
+fn surfaces_that_roll_have_no_friction_of_their_solids() {
+    let of = |sliding: &str| {
+        let text = case(&format!("{OIL}speed = \"1 mm/s\"\n{sliding}"))
+            .replace(", plus = [{ generate = \"low-pass\", sq = \"60 nm\", cutoff = \"66 um\" }]", "");
+        films(&at_rest(&parsed(&text)))[0].1.film
+    };
+    let (rolling, sliding) = (of("sliding = 0\n"), of(""));
+    assert!(rolling.solid_share > 0.5 && rolling.traction_coefficient == 0.0, "{rolling:?}");
+    assert!(sliding.traction_coefficient > 0.06, "{sliding:?}");
+}
+
 #[test]
 fn interrupted_passes_in_an_overlap_bear_their_mean_load_and_go_on_to_the_same_bits() {
     let text = over(

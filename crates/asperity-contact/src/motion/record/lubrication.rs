@@ -42,11 +42,12 @@ impl FilmRecord {
     pub(in crate::motion) fn of_pass(films: &[Self]) -> Option<Self> {
         let mean = |value: fn(&Self) -> f64| films.iter().map(value).sum::<f64>() / films.len() as f64;
         let most = |value: fn(&Self) -> f64| films.iter().map(value).fold(0.0, f64::max);
-        let first = films.first()?;
+        let known = films.iter().filter(|film| film.lambda.is_some()).count() as f64;
+        films.first()?;
         Some(Self {
             mean_film: mean(|film| film.mean_film),
             min_film: films.iter().map(|film| film.min_film).fold(f64::INFINITY, f64::min),
-            lambda: first.lambda.map(|_| mean(|film| film.lambda.unwrap_or_default())),
+            lambda: (known > 0.0).then(|| films.iter().filter_map(|film| film.lambda).sum::<f64>() / known),
             solid_share: mean(|film| film.solid_share),
             traction_coefficient: mean(|film| film.traction_coefficient),
             cavity_share: mean(|film| film.cavity_share),

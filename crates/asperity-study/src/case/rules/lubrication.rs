@@ -1,6 +1,6 @@
 //! Rules of lubricated bodies.
 
-use super::super::{Body, CounterBody, Layer, Source};
+use super::super::{Body, Case, CounterBody, Layer, Source};
 use super::Rule;
 use super::examples::{AT_ANY_SPEED, GENERATED, OIL, RUBS, SLIDES, SWEEP};
 use asperity_contact::motion::Strategy;
@@ -82,6 +82,31 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
     Rule {
+        this: "[motion] of lubricated bodies by a shift",
+        with: "a form that moves",
+        message: "the form of a lubricated body stands still in a shift: it does not pass through the grid",
+        hint: "set its speed to 0 and move the other body; smooth bodies that roll have a steady film, with `sliding` in [lubrication]",
+        at: "motion.speed_upper",
+        example: &[
+            BETWEEN,
+            r#"upper.topography = { form = "sphere", radius = "1 mm" }"#,
+            r#"motion = { strategy = "shift", speed_upper = 1 }"#,
+        ],
+        broken: |tables| {
+            tables.at("lubrication")?;
+            let Strategy::Shift { speed_lower, speed_upper } = tables.motion()?.strategy() else {
+                return None;
+            };
+            let moves = |body: &Body, speed: f64| speed != 0.0 && has_form(body);
+            let Case { lower, upper, .. } = tables.case;
+            match [moves(lower, speed_lower), moves(upper, speed_upper)] {
+                [_, true] => tables.at("motion.speed_upper").or(tables.at("motion")),
+                [true, _] => tables.at("motion.speed_lower"),
+                _ => None,
+            }
+        },
+    },
+    Rule {
         this: "[motion] of lubricated bodies",
         with: "`counter = \"fresh\"`, a flash temperature",
         message: "passes of lubricated bodies do not support '{key}'",
@@ -155,6 +180,17 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
 ];
+
+/// Whether the surface of a body is curved as a whole, by a form.
+fn has_form(body: &Body) -> bool {
+    let is_curved = |form: &Form| !matches!(form, Form::Flat | Form::Sinusoid { .. } | Form::Grooves { .. });
+    matches!(&body.topography.source, Source::Form { form, .. } if is_curved(form))
+        || body
+            .topography
+            .plus
+            .iter()
+            .any(|layer| matches!(layer, Layer::Form { form, .. } if is_curved(form)))
+}
 
 /// Whether a film changes where the body moves on: unless its form may turn with it.
 fn is_rough(body: &Body) -> bool {

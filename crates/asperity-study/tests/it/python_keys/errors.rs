@@ -60,6 +60,7 @@ const FAILED: &[&str] = &[
     "NotConverged",
     "NotFinite",
     "PeriodicFullContact",
+    "FilmNotConverged",
     "PlasticNotConverged",
     "PullOff",
     "Threads",
