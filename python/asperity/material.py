@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Sequence
 from typing import Annotated, Any
@@ -14,6 +15,7 @@ from ._described import described
 from ._raise import bad_input, warn
 from ._same import Comparable
 from ._units import Quantity, number, quantity, written
+from .keys import Viscoelastic
 
 _SOFT = 1e6
 """Young's modulus that is softer than any rubber, Pa."""
@@ -34,25 +36,34 @@ class Coating(Comparable):
         Young's modulus, above 0, Pa.
     poisson : float
         Poisson's ratio, 0 to 0.5.
+    viscoelastic : keys.Viscoelastic, optional
+        Relaxation of the layer, for the argument `steady` of :func:`contact`; `young` is then its relaxed modulus.
 
     Examples
     --------
     >>> import asperity as asp
     >>> asp.Coating(thickness="2 um", young="300 GPa", poisson=0.25).thickness
     2e-06
+    >>> asp.Coating("1 mm", "2 MPa", 0.49, viscoelastic={"moduli": ["20 MPa"], "times": ["1 ms"]})
+    Coating(thickness='1 mm', young='2 MPa', poisson=0.49, viscoelastic={'moduli': ['20 MPa'], 'times': ['1 ms']})
     """
 
-    def __init__(self, thickness: Quantity, young: Quantity, poisson: float) -> None:
+    def __init__(self, thickness: Quantity, young: Quantity, poisson: float, viscoelastic: Viscoelastic | None = None) -> None:
         self.thickness = quantity("thickness", thickness, "length")
         self.young = quantity("young", young, "pressure")
         self.poisson = _poisson(poisson)
+        self.viscoelastic = copy.deepcopy(viscoelastic)
 
     def __repr__(self) -> str:
         thickness, young = written(self.thickness, "length"), written(self.young, "pressure")
-        return f"Coating(thickness={thickness}, young={young}, poisson={self.poisson!r})"
+        relaxing = "" if self.viscoelastic is None else f", viscoelastic={self.viscoelastic!r}"
+        return f"Coating(thickness={thickness}, young={young}, poisson={self.poisson!r}{relaxing})"
 
     def _table(self) -> dict[str, Any]:
-        return {"thickness": self.thickness, "young": self.young, "poisson": self.poisson}
+        table: dict[str, Any] = {"thickness": self.thickness, "young": self.young, "poisson": self.poisson}
+        if self.viscoelastic is not None:
+            table["viscoelastic"] = self.viscoelastic
+        return table
 
 
 class Plasticity(Comparable):

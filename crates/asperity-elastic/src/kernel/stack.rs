@@ -25,7 +25,7 @@ use crate::units::{Metre, Pascal};
 /// and in a thick one from its stiffness, whose terms decay as e^(−x). So nothing grows, and nothing cancels at
 /// any thickness. Out of the plane the state (u_y, σ_yz) follows from [`potential_compliance`].
 ///
-/// All of it holds for complex moduli M as well: those of viscoelastic layers under a pressure that oscillates.
+/// All of it holds for complex moduli M as well: those of layers that relax, under a pressure that oscillates.
 ///
 /// Rokhlin and Wang, J. Acoust. Soc. Am. 112, 822 (2002); Chen, Int. J. Solids Struct. 7, 357 (1971).
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +48,7 @@ struct Elastic<M = Pascal> {
     poisson: f64,
 }
 
-/// A modulus: a real number of an elastic material, a complex one of a viscoelastic material at a frequency.
+/// A modulus: a real number of an elastic material, a complex one of a material that relaxes, at a frequency.
 pub trait Modulus:
     Copy
     + From<f64>

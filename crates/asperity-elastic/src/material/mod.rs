@@ -8,8 +8,8 @@ use crate::error::{Error, Result, check, check_in};
 use crate::units::{Dimension, Metre, Pascal};
 use asperity_base::beside::{Beside, Scale};
 use asperity_base::exists;
-use asperity_base::table::Table as _;
-use asperity_derive::Table;
+use asperity_base::table::Part as _;
+use asperity_derive::Part;
 
 /// An elastic, or elastic–perfectly plastic, isotropic material.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,8 +28,7 @@ pub struct Material {
 const THICK: Beside = Beside::most(Scale::Side, 10.0, "contacts do not feel the body under it");
 
 /// An elastic, isotropic layer of uniform thickness, bonded to a body.
-#[derive(Table, Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-#[table("lower.coating", "upper.coating", "lower.layers", "upper.layers")]
+#[derive(Part, Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Coating {
     /// Thickness of the layer.
     #[key(quantity = Length, range = AboveZero, example = "\"2 um\"", exists = exists::LAYER, beside = [THICK])]
