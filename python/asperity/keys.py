@@ -291,7 +291,7 @@ class Temperature(_RequiredTemperature, total=False):
 
 
 class Viscoelastic(TypedDict, total=False):
-    """Keys of ``viscoelastic`` of a body: its relaxation. Either `moduli` and `times`, or `file` is given.
+    """Keys of ``viscoelastic`` of a body or a layer: its relaxation. Either `moduli` and `times`, or `file` is given.
 
     Attributes
     ----------

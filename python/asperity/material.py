@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Sequence
 from typing import Annotated, Any
@@ -14,6 +15,7 @@ from ._described import described
 from ._raise import bad_input, warn
 from ._same import Comparable
 from ._units import Quantity, number, quantity, written
+from .keys import Viscoelastic
 
 _SOFT = 1e6
 """Young's modulus that is softer than any rubber, Pa."""
@@ -34,6 +36,8 @@ class Coating(Comparable):
         Young's modulus, above 0, Pa; or the name of a material, see :func:`materials`.
     poisson : float, optional
         Poisson's ratio, 0 to 0.5. A named material has its own.
+    viscoelastic : keys.Viscoelastic, optional
+        Relaxation of the layer, for the argument `steady` of :func:`contact`; `young` is then its relaxed modulus.
 
     Examples
     --------
@@ -42,20 +46,31 @@ class Coating(Comparable):
     2e-06
     >>> asp.Coating("2 um", "dlc").young
     259000000000.0
+    >>> asp.Coating("1 mm", "2 MPa", 0.49, viscoelastic={"moduli": ["20 MPa"], "times": ["1 ms"]})
+    Coating(thickness='1 mm', young='2 MPa', poisson=0.49, viscoelastic={'moduli': ['20 MPa'], 'times': ['1 ms']})
     """
 
-    def __init__(self, thickness: Quantity, young: Quantity, poisson: float | None = None) -> None:
+    def __init__(
+        self, thickness: Quantity, young: Quantity, poisson: float | None = None, viscoelastic: Viscoelastic | None = None
+    ) -> None:
         self.thickness = quantity("thickness", thickness, "length")
         self.name, (young, poisson) = _elastic(young, poisson)
         self.young = quantity("young", young, "pressure")
         self.poisson = _poisson(poisson)
+        self.viscoelastic = copy.deepcopy(viscoelastic)
 
     def __repr__(self) -> str:
-        return f"Coating(thickness={written(self.thickness, 'length')}, {', '.join(_elastic_parts(self))})"
+        relaxing = [] if self.viscoelastic is None else [f"viscoelastic={self.viscoelastic!r}"]
+        parts = [f"thickness={written(self.thickness, 'length')}", *_elastic_parts(self), *relaxing]
+        return f"Coating({', '.join(parts)})"
 
     def _table(self) -> dict[str, Any]:
-        table = {"thickness": self.thickness, "young": self.young, "poisson": self.poisson}
-        return table if self.name is None else {"material": self.name, **table}
+        table: dict[str, Any] = {"thickness": self.thickness, "young": self.young, "poisson": self.poisson}
+        if self.name is not None:
+            table["material"] = self.name
+        if self.viscoelastic is not None:
+            table["viscoelastic"] = self.viscoelastic
+        return table
 
 
 class Plasticity(Comparable):

@@ -49,6 +49,25 @@ def test_a_master_curve_is_fitted(tmp_path: pathlib.Path) -> None:
         drag(file=str(file))
 
 
+def test_a_layer_on_a_rigid_base_relaxes() -> None:
+    _, upper = bodies()
+    smooth = asp.form.flat((32, 32), pitch="10 um")
+
+    def drag(thickness: str) -> float:
+        layer = asp.Coating(thickness, "1 MPa", 0.49, viscoelastic=RELAXING)  # type: ignore[arg-type]
+        lower = asp.Body(smooth, asp.Material("inf", 0.3, coating=[layer, asp.Coating("0.1 mm", "10 GPa", 0.3)]))
+        c = asp.contact(lower, upper, mean_pressure="50 kPa", boundary="periodic", steady={"speed": "10 mm/s"})
+        return float(c.sweep["drag_coefficient"][0])
+
+    body, rigid = bodies()
+    half_space = asp.contact(body, rigid, mean_pressure="50 kPa", boundary="periodic", steady={"speed": "10 mm/s"})
+    assert 0 < drag("10 um") < drag("2 mm")
+    assert drag("2 mm") == pytest.approx(half_space.sweep["drag_coefficient"][0], rel=0.02)
+    with pytest.raises(errors.CaseError, match="a rigid body does not relax"):
+        flat = asp.Body(smooth, asp.Material("inf", 0.3), viscoelastic=RELAXING)  # type: ignore[arg-type]
+        asp.contact(flat, asp.Body(upper.surface, asp.Material("1 GPa", 0.3)), load="1 mN", steady={"speed": 1.0})
+
+
 def test_two_rough_bodies_do_not_slide_steadily() -> None:
     lower, upper = bodies()
     rough = asp.Body(upper.surface, lower.material, viscoelastic=RELAXING)  # type: ignore[arg-type]

@@ -121,7 +121,7 @@ pub fn run_on_ranks(
             grid: slab.whole_grid(),
             origin: body.origin.as_ref(),
             hardness_sha256: body.hardness_sha256.as_ref(),
-            master_sha256: None,
+            master_sha256: Vec::new(),
         }),
     );
     let identity = identity_of(&resolved);

@@ -95,7 +95,10 @@ fn pair(case: &Case, estimate: &Estimate) -> String {
     if estimate.hardness.is_infinite() {
         return match &estimate.viscoelastic {
             None => format!("{modulus}, elastic"),
-            Some(viscoelastic) => format!("{modulus} relaxed; {}", viscoelastic.bodies.join("; ")),
+            Some(viscoelastic) => {
+                let relaxed = if case.is_coated() { ", relaxed" } else { " relaxed" };
+                format!("{modulus}{relaxed}; {}", viscoelastic.bodies.join("; "))
+            }
         };
     }
     let who = match estimate.lower_share {

@@ -10,26 +10,40 @@ use crate::io::sha256;
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
 
-/// Keys that may name a file in a case, surfaces first.
-pub(super) const FILES: [&str; 6] = [
-    "/lower/topography",
-    "/upper/topography",
-    "/lower/hardness",
-    "/upper/hardness",
-    "/lower/viscoelastic",
-    "/upper/viscoelastic",
-];
+/// Names of the bodies in a case.
+const BODIES: [&str; 2] = ["lower", "upper"];
+
+/// Returns pointers to the tables of a resolved case that may name a file, surfaces first.
+fn files(case: &Value) -> Vec<String> {
+    let of_bodies =
+        ["topography", "hardness"].into_iter().flat_map(|key| BODIES.map(|body| format!("/{body}/{key}")));
+    of_bodies
+        .chain(BODIES.iter().flat_map(|body| parts(case, body)).map(|part| format!("{part}/viscoelastic")))
+        .collect()
+}
+
+/// Returns pointers to the tables of the layers of a body from the surface down, and to that of the body.
+fn parts(case: &Value, body: &str) -> Vec<String> {
+    let table = |key: &str| case.pointer(&format!("/{body}/{key}"));
+    let layers = table("layers").and_then(Value::as_array).map_or(0, Vec::len);
+    let coating = table("coating").map(|_| format!("/{body}/coating"));
+    coating
+        .into_iter()
+        .chain((0..layers).map(|n| format!("/{body}/layers/{n}")))
+        .chain([format!("/{body}")])
+        .collect()
+}
 
 /// Returns the content of `case.json`. The case is resolved to SI, a shape or pitch taken from the other body
 /// is filled in, and the SHA-256 of each file stands beside its name. `identity` is the digest of everything
 /// that determines the numbers.
 pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
     let Bodies { lower, upper, master_curves } = bodies;
-    let data = [(lower, &master_curves[0]), (upper, &master_curves[1])].map(|(body, curve)| BodyData {
+    let data = [(lower, &master_curves[0]), (upper, &master_curves[1])].map(|(body, curves)| BodyData {
         grid: *body.topography.grid(),
         origin: body.origin.as_ref(),
         hardness_sha256: body.hardness_sha256.as_ref(),
-        master_sha256: curve.as_ref().map(|curve| &curve.sha256),
+        master_sha256: curves.iter().map(|curve| curve.as_ref().map(|curve| &curve.sha256)).collect(),
     });
     resolved_of(case, data)
 }
@@ -42,8 +56,8 @@ pub struct BodyData<'a> {
     pub origin: Option<&'a Origin>,
     /// The SHA-256 of the file of its hardness.
     pub hardness_sha256: Option<&'a String>,
-    /// The SHA-256 of the file of its master curve.
-    pub master_sha256: Option<&'a String>,
+    /// The SHA-256 of the file of the master curve of each of its layers, from the surface down, and of the body below them.
+    pub master_sha256: Vec<Option<&'a String>>,
 }
 
 /// [`resolved`] for bodies given only by these data.
@@ -52,8 +66,9 @@ pub fn resolved_of(case: &Case, bodies: [BodyData<'_>; 2]) -> Value {
     let specs = [&case.lower.topography, &case.upper.topography];
     let grids = [&bodies[0], &bodies[1]].map(|body| body.grid);
     for (n, body) in bodies.iter().enumerate() {
-        let (key, spec, other) = (FILES[n], specs[n], grids[1 - n]);
-        let topography = resolved.pointer_mut(key).expect("a body has a topography");
+        let (name, spec, other) = (BODIES[n], specs[n], grids[1 - n]);
+        let topography =
+            resolved.pointer_mut(&format!("/{name}/topography")).expect("a body has a topography");
         for lacking in spec.lacks() {
             topography[lacking] = if lacking == "shape" { json!(other.shape) } else { json!(other.pitch) };
         }
@@ -61,11 +76,17 @@ pub fn resolved_of(case: &Case, bodies: [BodyData<'_>; 2]) -> Value {
         if let (Source::File { .. } | Source::Given { .. }, Some(digest)) = (&spec.source, digest) {
             topography["sha256"] = digest.into();
         }
-        if let (Some(digest), Some(map)) = (body.hardness_sha256, resolved.pointer_mut(FILES[n + 2])) {
+        if let (Some(digest), Some(map)) =
+            (body.hardness_sha256, resolved.pointer_mut(&format!("/{name}/hardness")))
+        {
             map["sha256"] = digest.clone().into();
         }
-        if let (Some(digest), Some(table)) = (body.master_sha256, resolved.pointer_mut(FILES[n + 4])) {
-            table["sha256"] = digest.clone().into();
+        for (part, digest) in parts(&resolved, name).iter().zip(&body.master_sha256) {
+            if let (Some(digest), Some(table)) =
+                (digest, resolved.pointer_mut(&format!("{part}/viscoelastic")))
+            {
+                table["sha256"] = (*digest).clone().into();
+            }
         }
     }
     resolved["identity"] = identity_of(&resolved).into();
@@ -81,10 +102,10 @@ pub fn identity_of(case: &Value) -> String {
 /// Returns an error unless the results in `directory`, whose case is `before`, are also those of the case
 /// `now`.
 pub(super) fn compare(directory: &Path, before: &Value, now: &Value) -> Result<()> {
-    for key in FILES {
-        let digest = |case: &Value| case.pointer(key)?.get("sha256").cloned();
+    for key in files(now) {
+        let digest = |case: &Value| case.pointer(&key)?.get("sha256").cloned();
         let file = |case: &Value| {
-            let table = case.pointer(key)?;
+            let table = case.pointer(&key)?;
             table.get("file").or(table.get("given")).cloned()
         };
         if let (Some(_), Some(path)) = (file(before), file(now))
@@ -106,8 +127,8 @@ pub(super) fn without_digests(resolved: &Value) -> Value {
     if let Some(keys) = case.as_object_mut() {
         keys.remove("identity");
     }
-    for key in FILES {
-        if let Some(table) = case.pointer_mut(key).and_then(Value::as_object_mut) {
+    for key in files(resolved) {
+        if let Some(table) = case.pointer_mut(&key).and_then(Value::as_object_mut) {
             table.remove("sha256");
         }
     }
@@ -125,9 +146,9 @@ fn deciding(case: &Value) -> Value {
     if let Some(motion) = case.pointer_mut("/motion").and_then(Value::as_object_mut) {
         motion.remove("passes");
     }
-    for key in FILES {
+    for key in files(&case) {
         // Its folder depends on the working directory of the program.
-        if let Some(file) = case.pointer_mut(key).and_then(|topography| topography.get_mut("file")) {
+        if let Some(file) = case.pointer_mut(&key).and_then(|topography| topography.get_mut("file")) {
             let name = Path::new(file.as_str().unwrap_or_default()).file_name();
             *file = name.map_or(Value::Null, |name| name.to_string_lossy().into());
         }
@@ -170,7 +191,8 @@ mod tests {
     #[test]
     fn the_first_difference_is_named_and_what_decides_nothing_is_none() {
         let before = json!({"title": "a", "identity": "x", "contact": {"load": 0.02}, "motion": {"passes": 3, "stride": 1},
-            "lower": {"topography": {"file": "there/a.npy", "sha256": "00"}}, "history": [{"load": 1.0}]});
+            "lower": {"topography": {"file": "there/a.npy", "sha256": "00"}},
+            "upper": {"layers": [{}, {"viscoelastic": {"file": "there/m.csv", "sha256": "07"}}]}, "history": [{"load": 1.0}]});
         let with = |pointer: &str, value: Value| {
             let mut now = before.clone();
             *now.pointer_mut(pointer).unwrap() = value;
@@ -181,6 +203,7 @@ mod tests {
             ("/identity", json!("y")),
             ("/motion/passes", json!(9)),
             ("/lower/topography/file", json!("here/a.npy")),
+            ("/upper/layers/1/viscoelastic/file", json!("here/m.csv")),
         ] {
             assert_eq!(with(pointer, value), Ok(()), "{pointer}");
         }
@@ -197,6 +220,11 @@ mod tests {
                 "/lower/topography/sha256",
                 json!("01"),
                 "there/a.npy has changed since the results in out were begun",
+            ),
+            (
+                "/upper/layers/1/viscoelastic/sha256",
+                json!("08"),
+                "there/m.csv has changed since the results in out were begun",
             ),
         ] {
             let error = with(pointer, value).unwrap_err();
@@ -231,6 +259,7 @@ mod tests {
             ("ploughed", "a7abdeb1"),
             ("prepared", "fc13f0ca"),
             ("pushed", "137f2c48"),
+            ("relaxing", "6813bea8"),
             ("rolled", "4de6a6f8"),
             ("rolling", "6a4293d4"),
             ("rough_ball", "80c24a7a"),

@@ -32,8 +32,9 @@ pub struct Bodies {
     pub lower: MountedSurface,
     /// The upper body, with the heights of its underside.
     pub upper: MountedSurface,
-    /// The master curves of viscoelastic bodies, lower one first.
-    pub master_curves: [Option<MasterCurve>; 2],
+    /// The master curves of viscoelastic bodies, lower one first: those of the layers from the surface down, then that of the
+    /// body below them.
+    pub master_curves: [Vec<Option<MasterCurve>>; 2],
 }
 
 /// A surface as used in the contact, with every height defined.

@@ -1,14 +1,14 @@
 //! Viscoelastic bodies of a case: their relaxation, and what a check says of their sliding and loading.
 
-use crate::case::{Body, Case, StageSpec};
+use crate::case::{Case, Part, StageSpec};
 use crate::master_curve::MasterCurve;
 use asperity_base::error::{Error, Result};
 use asperity_base::units::{self, Dimension, Kelvin, Metre, MetrePerSecond, Pascal, Second};
 use asperity_contact::motion::{MovingBody, Pair};
 use asperity_contact::operator::Boundary;
-use asperity_contact::viscoelastic::{Creep, MasterFit, MasterPoint, Relaxation};
+use asperity_contact::viscoelastic::{BodyRelaxation, Creep, MasterFit, MasterPoint, Relaxation};
 use asperity_contact::with;
-use asperity_contact::with::viscoelastic::Steady;
+use asperity_contact::with::viscoelastic::{Steady, Viscoelasticity};
 use asperity_surface::Topography;
 
 /// Fewest steps of a stage in time with which its load and area are within some per cent.
@@ -18,41 +18,66 @@ const STEPS: usize = 8;
 const FALLEN: f64 = 1.2;
 /// Largest error of a fit that is not told.
 const POOR: f64 = 0.15;
-/// The relaxation of a body, with the fit of a master curve.
-type BodyRelaxation = (Relaxation, Option<MasterFit>);
 
-/// Returns the relaxation of each body of a case, `None` for an elastic one.
+/// A viscoelastic body or layer.
+struct RelaxingPart<'a> {
+    /// Its name: "lower body", "2nd layer of the lower body".
+    name: String,
+    part: Part<'a>,
+    viscoelastic: &'a Viscoelasticity,
+    curve: Option<&'a MasterCurve>,
+    temperature: Option<Kelvin>,
+    relaxation: Relaxation,
+    /// The fit of its master curve.
+    fit: Option<MasterFit>,
+}
+
+/// Returns the viscoelastic parts of each body of a case: its layers from the surface down, then the body below them.
 ///
 /// # Errors
-/// [`Error::Case`] at the table of the body.
-pub(super) fn relaxations(
-    case: &Case,
-    curves: &[Option<MasterCurve>; 2],
-) -> Result<[Option<BodyRelaxation>; 2]> {
-    let of = |index: usize, name: &str, body: &Body| {
-        let Some(viscoelastic) = &body.properties.viscoelastic else { return Ok(None) };
-        let temperature = temperature(case, index);
-        let curve = curves[index].as_ref().map(|curve| &curve.points[..]);
-        let found = viscoelastic.relaxation(body.material.young, temperature, curve);
-        found.map(Some).map_err(|source| at(case, name, &source))
+/// [`Error::Case`] at the table of the part.
+fn relaxing_parts<'a>(
+    case: &'a Case,
+    curves: &'a [Vec<Option<MasterCurve>>; 2],
+) -> Result<[Vec<RelaxingPart<'a>>; 2]> {
+    let of = |index: usize| {
+        let (body, name) = [(&case.lower, "lower"), (&case.upper, "upper")][index];
+        let temperature = case.temperature.map(|temperature| temperature.bulk[index]);
+        let parts = body.parts().zip(&curves[index]).filter_map(|(part, curve)| {
+            let (viscoelastic, curve) = (part.viscoelastic?, curve.as_ref());
+            let points = curve.map(|curve| &curve.points[..]);
+            let found = viscoelastic.relaxation(part.young, temperature, points);
+            let found = found.map_err(|source| at(case, &case.table_of(name, part.layer), &source));
+            let name = match part.layer {
+                None => format!("{name} body"),
+                Some(_) if body.material.layers.len() == 1 => format!("coating of the {name} body"),
+                Some(n) => format!("{} layer of the {name} body", with::ordinal(n + 1)),
+            };
+            let part = |(relaxation, fit)| RelaxingPart {
+                name,
+                part,
+                viscoelastic,
+                curve,
+                temperature,
+                relaxation,
+                fit,
+            };
+            Some(found.map(part))
+        });
+        parts.collect::<Result<Vec<_>>>()
     };
-    Ok([of(0, "lower", &case.lower)?, of(1, "upper", &case.upper)?])
+    Ok([of(0)?, of(1)?])
 }
 
-/// Returns the temperature of a body, lower one first, if it is known.
-fn temperature(case: &Case, index: usize) -> Option<Kelvin> {
-    case.temperature.map(|temperature| temperature.bulk[index])
-}
-
-/// Returns an error of a fit at the key that it concerns.
-fn at(case: &Case, name: &str, source: &Error) -> Error {
+/// Returns an error of a fit at the key that it concerns, of a part in this `table`.
+fn at(case: &Case, table: &str, source: &Error) -> Error {
     let key = match source {
-        Error::OutOfRange { quantity: "young", .. } => format!("{name}.young"),
+        Error::OutOfRange { quantity: "young", .. } => format!("{table}.young"),
         Error::OutOfRange { quantity: "terms_per_decade", .. } => {
-            format!("{name}.viscoelastic.terms_per_decade")
+            format!("{table}.viscoelastic.terms_per_decade")
         }
         Error::OutOfRange { quantity: "bulk", .. } => "temperature.bulk".to_owned(),
-        _ => format!("{name}.viscoelastic.file"),
+        _ => format!("{table}.viscoelastic.file"),
     };
     case.error_at(&key, source.to_string(), source.hint())
 }
@@ -60,21 +85,26 @@ fn at(case: &Case, name: &str, source: &Error) -> Error {
 /// Makes the bodies of a `pair` viscoelastic, as their case says.
 ///
 /// # Errors
-/// The errors of [`relaxations`].
-pub(super) fn relax(case: &Case, pair: Pair, curves: &[Option<MasterCurve>; 2]) -> Result<Pair> {
-    let [lower, upper] = relaxations(case, curves)?;
-    if lower.is_none() && upper.is_none() {
-        return Ok(pair);
-    }
+/// The errors of [`relaxing_parts`].
+pub(super) fn relax(case: &Case, pair: Pair, curves: &[Vec<Option<MasterCurve>>; 2]) -> Result<Pair> {
     let materials = [&case.lower.material, &case.upper.material];
-    pair.with_relaxation(materials, [lower, upper].map(|body| body.map(|(relaxation, _)| relaxation)))
+    let relaxations = relaxing_parts(case, curves)?;
+    let of = |body: usize| {
+        let mut relaxation = BodyRelaxation { body: None, layers: vec![None; materials[body].layers.len()] };
+        for part in &relaxations[body] {
+            let place = part.part.layer.map_or(&mut relaxation.body, |n| &mut relaxation.layers[n]);
+            *place = Some(part.relaxation.clone());
+        }
+        relaxation
+    };
+    pair.with_relaxation(materials, [of(0), of(1)])
 }
 
 /// Viscoelastic bodies, their steady sliding and their history before anything is solved.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ViscoelasticEstimate {
-    /// A line for each viscoelastic body: its moduli and times, and the fit of its master curve.
+    /// A line for each viscoelastic body or layer: its moduli and times, and the fit of its master curve.
     pub bodies: Vec<String>,
     /// Reasons to doubt the answer.
     pub warnings: Vec<String>,
@@ -92,37 +122,35 @@ pub struct ViscoelasticEstimate {
 pub(super) fn estimate(
     case: &Case,
     bodies: [&Topography; 2],
-    curves: &[Option<MasterCurve>; 2],
+    curves: &[Vec<Option<MasterCurve>>; 2],
 ) -> Result<Option<ViscoelasticEstimate>> {
     if !case.relaxes() {
         return Ok(None);
     }
-    let relaxations = relaxations(case, curves)?;
-    let found = || relaxations.iter().flatten().map(|(relaxation, _)| relaxation);
+    let parts = relaxing_parts(case, curves)?;
+    let found = || parts.iter().flatten().map(|part| &part.relaxation);
     let shortest = found().flat_map(Relaxation::terms).map(|term| term.time).fold(f64::INFINITY, f64::min);
     let longest = found().flat_map(|body| body.creep().terms).map(|term| term.time).fold(0.0, f64::max);
     let stiffening = found().map(|body| body.glassy() / body.relaxed()).fold(1.0, f64::max);
     let mut estimate =
         ViscoelasticEstimate { times: [shortest, longest], stiffening, ..ViscoelasticEstimate::default() };
-    for (index, (name, body)) in [("lower", &case.lower), ("upper", &case.upper)].into_iter().enumerate() {
-        estimate.bodies.extend(relaxations[index].as_ref().map(|found| described(name, found)));
-        let doubt =
-            body.properties.viscoelastic.as_ref().and_then(|body| body.doubt(name, temperature(case, index)));
-        let fit = relaxations[index].as_ref().and_then(|(_, fit)| fit.as_ref());
-        estimate.warnings.extend(curves[index].as_ref().and_then(|curve| converted(name, curve)));
-        estimate.warnings.extend(doubt.into_iter().chain(fit.and_then(|fit| poor(name, fit))));
+    for part in parts.iter().flatten() {
+        estimate.bodies.push(part.described());
+        estimate.warnings.extend(part.converted());
+        estimate.warnings.extend(part.viscoelastic.doubt(&part.name, part.temperature));
+        estimate.warnings.extend(part.poor());
     }
     estimate.warnings.extend(case.history.iter().flat_map(coarse));
     if let Some(steady) = &case.steady {
-        estimate.warnings.extend(of_steady(case, steady, bodies, &relaxations, curves)?);
+        estimate.warnings.extend(of_steady(case, steady, bodies, &parts)?);
     }
     if let Some(motion) = case.motion(1.0) {
         let step = motion.stride as f64 * bodies[0].grid().pitch[0];
         let speed = motion.sliding_speed();
-        for index in [0, 1].into_iter().filter(|index| relaxations[*index].is_some() && speed > 0.0) {
+        for index in [0, 1].into_iter().filter(|index| !parts[*index].is_empty() && speed > 0.0) {
             // Waves along y do not matter: bodies that pass over each other come apart from everywhere.
             let passed = Passed { boundary: Boundary::FREE, step, speeds: &[speed] };
-            estimate.warnings.extend(doubts(case, index, &passed, bodies, &relaxations, curves)?);
+            estimate.warnings.extend(doubts(index, &passed, bodies, &parts[index])?);
         }
     }
     Ok(Some(estimate))
@@ -158,41 +186,43 @@ fn of_steady(
     case: &Case,
     steady: &Steady,
     bodies: [&Topography; 2],
-    relaxations: &[Option<BodyRelaxation>; 2],
-    curves: &[Option<MasterCurve>; 2],
+    parts: &[Vec<RelaxingPart<'_>>; 2],
 ) -> Result<Vec<String>> {
     let grid = bodies[0].grid();
     let heights = bodies.map(Topography::heights);
-    let creeps = relaxations.each_ref().map(Option::is_some);
+    let creeps = parts.each_ref().map(|parts| !parts.is_empty());
     let moving = MovingBody::from_heights(heights, grid.pitch, creeps).map_err(|source| {
         let hint = "give one body heights that do not change along x, such as `form = \"flat\"`".to_owned();
         case.error_at("steady", source.to_string(), Some(hint))
     })?;
     let index = if moving == MovingBody::Lower { 0 } else { 1 };
     let passed = Passed { boundary: case.contact.boundary, step: grid.pitch[0], speeds: &steady.all() };
-    doubts(case, index, &passed, bodies, relaxations, curves)
+    doubts(index, &passed, bodies, &parts[index])
 }
 
-/// Returns reasons not to trust the contact that passes over a body, 0 for the lower one.
+/// Returns reasons not to trust the contact that passes over a body, 0 for the lower one, with these viscoelastic `parts`.
 fn doubts(
-    case: &Case,
     index: usize,
     passed: &Passed<'_>,
     bodies: [&Topography; 2],
-    relaxations: &[Option<BodyRelaxation>; 2],
-    curves: &[Option<MasterCurve>; 2],
+    parts: &[RelaxingPart<'_>],
 ) -> Result<Vec<String>> {
-    let (name, body) = [("lower", &case.lower), ("upper", &case.upper)][index];
-    let creep = match &relaxations[index] {
-        Some((relaxation, _)) => relaxation.creep(),
-        None => Creep::elastic(1.0),
-    };
     let Passed { boundary, step, speeds } = *passed;
-    let mut doubts =
-        with::viscoelastic::doubts(&creep, boundary, step, bodies[index].grid().extent()[0], speeds);
-    if let (Some(curve), Some(viscoelastic)) = (&curves[index], &body.properties.viscoelastic) {
-        let factor = viscoelastic.shift_factor(temperature(case, index))?;
-        doubts.extend(beyond(name, curve, factor, body.material.young, bodies[1 - index], speeds));
+    let extent = bodies[index].grid().extent()[0];
+    let of_creep = |creep: &Creep| with::viscoelastic::doubts(creep, boundary, step, extent, speeds);
+    if parts.is_empty() {
+        return Ok(of_creep(&Creep::elastic(1.0)));
+    }
+    let mut doubts = Vec::new();
+    for part in parts {
+        let of_part = of_creep(&part.relaxation.creep()).into_iter();
+        // Only a body without layers needs no name.
+        let is_alone = parts.len() == 1 && part.part.layer.is_none();
+        doubts.extend(of_part.map(|doubt| if is_alone { doubt } else { format!("{}: {doubt}", part.name) }));
+        if let Some(curve) = part.curve {
+            let factor = part.viscoelastic.shift_factor(part.temperature)?;
+            doubts.extend(beyond(&part.name, curve, factor, part.part.young, bodies[1 - index], speeds));
+        }
     }
     Ok(doubts)
 }
@@ -213,7 +243,7 @@ fn beyond(
     let wave = std::f64::consts::TAU * rough.sq() / rough.sdq();
     let told = |speed: MetrePerSecond, end: &MasterPoint, verb: &str| {
         format!(
-            "at {} the waves of the roughness, about {} long, deform the {name} body at {} Hz, and its master curve {verb} at {} Hz: the fit \
+            "at {} the waves of the roughness, about {} long, deform the {name} at {} Hz, and its master curve {verb} at {} Hz: the fit \
              beyond it is a guess",
             units::format(speed, Dimension::Speed),
             units::format(wave, Dimension::Length),
@@ -230,50 +260,57 @@ fn beyond(
     begins.into_iter().chain(ends.then(|| told(fastest, last, "ends"))).collect()
 }
 
-/// Returns how the shear moduli of the master curve of the body `name` became moduli of tension.
-fn converted(name: &str, curve: &MasterCurve) -> Option<String> {
-    let factor = units::format_number(curve.from_shear?);
-    Some(format!(
-        "the master curve of the {name} body has the shear moduli G′ and G″: they are multiplied by E/G = 2 (1 + ν) = {factor}"
-    ))
-}
+impl RelaxingPart<'_> {
+    /// Returns how the shear moduli of the master curve became moduli of tension.
+    fn converted(&self) -> Option<String> {
+        let factor = units::format_number(self.curve?.from_shear?);
+        Some(format!(
+            "the master curve of the {} has the shear moduli G′ and G″: they are multiplied by E/G = 2 (1 + ν) = {factor}",
+            self.name
+        ))
+    }
 
-/// Returns a reason not to trust a fit to the master curve of the body `name`.
-fn poor(name: &str, fit: &MasterFit) -> Option<String> {
-    let worst = fit.errors[0].max(fit.errors[1]);
-    (worst > POOR).then(|| {
-        format!(
-            "the fit to the master curve of the {name} body is off by up to {} %: more `terms_per_decade` help, or a `young` that is what the \
-             storage modulus falls to",
-            units::format_number(100.0 * worst)
-        )
-    })
-}
+    /// Returns a reason not to trust the fit to the master curve.
+    fn poor(&self) -> Option<String> {
+        let fit = self.fit.as_ref()?;
+        let worst = fit.errors[0].max(fit.errors[1]);
+        (worst > POOR).then(|| {
+            format!(
+                "the fit to the master curve of the {} is off by up to {} %: more `terms_per_decade` help, or a `young` that is what the \
+                 storage modulus falls to",
+                self.name,
+                units::format_number(100.0 * worst)
+            )
+        })
+    }
 
-/// Describes a viscoelastic body.
-fn described(name: &str, (relaxation, fit): &BodyRelaxation) -> String {
-    let pressure = |value| units::format(value, Dimension::Pressure);
-    let time = |value| units::format(value, Dimension::Time);
-    let terms = relaxation.terms();
-    let times = match terms {
-        [only] => format!("in {}", time(only.time)),
-        several => format!(
-            "in {} times from {} to {}",
-            several.len(),
-            time(several[several.len() - 1].time),
-            time(several[0].time)
-        ),
-    };
-    let moduli = format!(
-        "the {name} body relaxes from {} to {} {times}",
-        pressure(relaxation.glassy()),
-        pressure(relaxation.relaxed())
-    );
-    match fit {
-        None => moduli,
-        Some(fit) => {
-            let [storage, loss] = fit.errors.map(|error| units::format_number(100.0 * error));
-            format!("{moduli}, fitted to its master curve within {storage} % (storage) and {loss} % (loss)")
+    /// Describes the body or layer.
+    fn described(&self) -> String {
+        let pressure = |value| units::format(value, Dimension::Pressure);
+        let time = |value| units::format(value, Dimension::Time);
+        let times = match self.relaxation.terms() {
+            [only] => format!("in {}", time(only.time)),
+            several => format!(
+                "in {} times from {} to {}",
+                several.len(),
+                time(several[several.len() - 1].time),
+                time(several[0].time)
+            ),
+        };
+        let moduli = format!(
+            "the {} relaxes from {} to {} {times}",
+            self.name,
+            pressure(self.relaxation.glassy()),
+            pressure(self.relaxation.relaxed())
+        );
+        match &self.fit {
+            None => moduli,
+            Some(fit) => {
+                let [storage, loss] = fit.errors.map(|error| units::format_number(100.0 * error));
+                format!(
+                    "{moduli}, fitted to its master curve within {storage} % (storage) and {loss} % (loss)"
+                )
+            }
         }
     }
 }

@@ -66,8 +66,8 @@ pub(super) fn load_removing(
 
 /// Checks what viscoelastic bodies need to slide in place.
 pub(super) fn check_in_place(pair: &Pair, regime: SlipRegime, has_speed: bool, device: Device) -> Result<()> {
+    pair.check_memory()?;
     let Some([lower, _]) = pair.creep() else { return Ok(()) };
-    pair.check_creep()?;
     device.only_processor("a device does not solve contacts of viscoelastic bodies")?;
     let refused = if !lower.terms.is_empty() {
         "the contact moves over the lower body of sliding in place: a viscoelastic body must be the upper one"
@@ -83,10 +83,10 @@ pub(super) fn check_in_place(pair: &Pair, regime: SlipRegime, has_speed: bool, d
 
 /// Checks what viscoelastic bodies need to pass over each other.
 pub(super) fn check(pair: &Pair, boundary: Boundary, motion: &Motion, params: &Params) -> Result<()> {
-    if pair.creep().is_none() {
+    pair.check_memory()?;
+    if !pair.relaxes() {
         return Ok(());
     }
-    pair.check_creep()?;
     params.device.only_processor("a device does not solve contacts of viscoelastic bodies")?;
     let refused = if !motion.sliding_speed().is_finite() {
         "viscoelastic bodies need the speed of their motion"

@@ -15,7 +15,7 @@ use crate::plasticity::PlasticBody;
 use crate::solver::{Bounds, HardWall, Interface};
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre, Pascal, SquareMetre, format_distinct};
-use crate::viscoelastic::{Creep, Relaxation};
+use crate::viscoelastic::{BodyRelaxation, Creep, Relaxation, ViscoelasticStack};
 
 /// Two contacting bodies, with the elastic response of their materials.
 #[derive(Debug, Clone)]
@@ -31,9 +31,18 @@ pub struct Pair {
     /// all of it.
     share: Option<f64>,
     interface: Arc<dyn Interface>,
-    /// Composite creep compliance of the lower and of the upper body; `None` if neither is viscoelastic.
-    creep: Option<[Creep; 2]>,
+    /// The lower and the upper body as they relax; `None` if neither is viscoelastic.
+    viscoelastic: Option<Viscoelastic>,
     lubrication: Option<Lubrication>,
+}
+
+/// Two bodies, of which one is viscoelastic, lower one first.
+#[derive(Debug, Clone)]
+pub(super) enum Viscoelastic {
+    /// The composite creep compliance of each half-space.
+    HalfSpaces([Creep; 2]),
+    /// Bodies of which one has layers.
+    Layered([ViscoelasticStack; 2]),
 }
 
 impl Pair {
@@ -73,44 +82,65 @@ impl Pair {
             response: response(materials[0], materials[1])?,
             share: None,
             interface: Arc::new(HardWall),
-            creep: None,
+            viscoelastic: None,
             lubrication: None,
         })
     }
 
     /// Makes bodies viscoelastic, whose materials have the relaxed moduli: `relaxations` are those of the
-    /// lower and of the upper body, `None` for an elastic one. A load on a body at rest is borne by the
-    /// relaxed modulus.
+    /// lower and of the upper body, `None` for an elastic one, or those of a body and its layers. A load on a body at
+    /// rest is borne by the relaxed moduli.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a body with layers.
+    /// [`Error::Unsupported`] for relaxations of another number of layers than a body has.
     pub fn with_relaxation(
         mut self,
         materials: [&Material; 2],
-        relaxations: [Option<Relaxation>; 2],
+        relaxations: [impl Into<BodyRelaxation>; 2],
     ) -> Result<Self> {
-        if materials.iter().any(|material| material.is_layered()) {
-            return Err(Error::Unsupported("a body with layers cannot be viscoelastic"));
-        }
-        let creep = |body: usize| {
-            let &Material { young, poisson, .. } = materials[body];
-            let creep = relaxations[body].as_ref().map_or(Creep::elastic(1.0 / young), Relaxation::creep);
-            creep.times(1.0 - poisson * poisson)
+        let relaxations = relaxations.map(Into::into);
+        self.viscoelastic = if relaxations.iter().all(BodyRelaxation::is_elastic) {
+            None
+        } else if materials.iter().any(|material| material.is_layered()) {
+            let [lower, upper] = relaxations;
+            let stack = |body: usize, relaxation| ViscoelasticStack::new(materials[body], relaxation);
+            Some(Viscoelastic::Layered([stack(0, lower)?, stack(1, upper)?]))
+        } else {
+            let creep = |body: usize| {
+                let &Material { young, poisson, .. } = materials[body];
+                let relaxation = relaxations[body].body.as_ref();
+                relaxation
+                    .map_or(Creep::elastic(1.0 / young), Relaxation::creep)
+                    .times(1.0 - poisson * poisson)
+            };
+            Some(Viscoelastic::HalfSpaces([creep(0), creep(1)]))
         };
-        self.creep = relaxations.iter().any(Option::is_some).then(|| [creep(0), creep(1)]);
         Ok(self)
     }
 
+    /// Whether a body is viscoelastic.
+    pub(super) fn relaxes(&self) -> bool {
+        self.viscoelastic.is_some()
+    }
+
+    /// The viscoelastic bodies; `None` if neither is.
+    pub(super) fn viscoelastic(&self) -> Option<&Viscoelastic> {
+        self.viscoelastic.as_ref()
+    }
+
     /// Composite creep compliance of both bodies together, as long as the same cells stay opposite each
-    /// other; `None` if neither is viscoelastic.
+    /// other; `None` if neither is viscoelastic, or one has layers.
     pub fn creep_together(&self) -> Option<Creep> {
-        self.creep.as_ref().map(|[lower, upper]| lower.plus(upper))
+        self.creep().map(|[lower, upper]| lower.plus(upper))
     }
 
     /// Composite creep compliance of the lower and of the upper body, (1 − ν²) J(t); `None` if neither is
-    /// viscoelastic.
+    /// viscoelastic, or one has layers.
     pub fn creep(&self) -> Option<&[Creep; 2]> {
-        self.creep.as_ref()
+        match &self.viscoelastic {
+            Some(Viscoelastic::HalfSpaces(creep)) => Some(creep),
+            _ => None,
+        }
     }
 
     /// Sets the hardness of the lower and of the upper body, each a number or a map of its cells.
@@ -215,7 +245,7 @@ impl Pair {
 
     /// Returns [`Error::Unsupported`] if a body is viscoelastic.
     pub(super) fn check_elastic(&self) -> Result<()> {
-        match self.creep {
+        match self.viscoelastic {
             Some(_) => Err(Error::Unsupported(
                 "viscoelastic bodies slide steadily, pass over each other or are loaded in time without friction; nothing else is computed for them",
             )),
@@ -233,7 +263,7 @@ impl Pair {
 
     /// Returns [`Error::Unsupported`] if lubricated bodies are viscoelastic or attract each other.
     pub(super) fn check_lubricated(&self) -> Result<()> {
-        if self.creep.is_some() || !self.interface.is_hard() {
+        if self.relaxes() || !self.interface.is_hard() {
             return Err(Error::Unsupported("lubricated bodies that are viscoelastic or attract each other"));
         }
         Ok(())
@@ -242,10 +272,20 @@ impl Pair {
     /// Returns [`Error::Unsupported`] if viscoelastic bodies yield or have an interface other than hard
     /// walls.
     pub(super) fn check_creep(&self) -> Result<()> {
-        if self.creep.is_some() && (!self.interface.is_hard() || self.yields()) {
+        if self.relaxes() && (!self.interface.is_hard() || self.yields()) {
             Err(Error::Unsupported("viscoelastic bodies that attract each other or have a hardness"))
         } else {
             Ok(())
+        }
+    }
+
+    /// Returns [`Error::Unsupported`] for viscoelastic bodies whose memory in time is not computed.
+    pub(super) fn check_memory(&self) -> Result<()> {
+        match self.viscoelastic {
+            Some(Viscoelastic::Layered(_)) => Err(Error::Unsupported(
+                "viscoelastic bodies with layers in other contacts than steady sliding",
+            )),
+            _ => self.check_creep(),
         }
     }
 

@@ -2,13 +2,13 @@
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
-use crate::motion::pair::Pair;
+use crate::motion::pair::{Pair, Viscoelastic};
 use crate::motion::record::SteadyRecord;
 use crate::motion::state::LoadedContact;
 use crate::operator::Boundary;
 use crate::solver::{Control, Equilibrium, Params, Watch};
 use crate::units::{Metre, MetrePerSecond};
-use crate::viscoelastic::{Creep, SteadySliding, solve_steady};
+use crate::viscoelastic::{Creep, SlidingBodies, SteadySliding, ViscoelasticStack, solve_steady};
 
 /// Largest difference of heights along x of a body that counts as smooth, relative to the range of its
 /// heights, or to the pitch.
@@ -51,8 +51,11 @@ impl Pair {
     /// # Errors
     /// The errors of [`MovingBody::from_heights`].
     pub fn moving_body(&self) -> Result<MovingBody> {
-        let creeps =
-            self.creep().map_or([false; 2], |creep| creep.each_ref().map(|creep| !creep.terms.is_empty()));
+        let creeps = match self.viscoelastic() {
+            None => [false; 2],
+            Some(Viscoelastic::HalfSpaces(creeps)) => creeps.each_ref().map(|creep| !creep.terms.is_empty()),
+            Some(Viscoelastic::Layered(stacks)) => stacks.each_ref().map(ViscoelasticStack::relaxes),
+        };
         MovingBody::from_heights([&self.lower.heights, &self.upper.heights], self.pitch(), creeps)
     }
 
@@ -63,14 +66,23 @@ impl Pair {
     /// [`SteadySliding::new`].
     pub fn sliding_steadily(&self, boundary: Boundary, speed: MetrePerSecond) -> Result<SteadySliding> {
         self.check_creep()?;
-        let creeps =
-            self.creep().ok_or(Error::Unsupported("steady sliding is computed for viscoelastic bodies"))?;
+        let bodies = self
+            .viscoelastic()
+            .ok_or(Error::Unsupported("steady sliding is computed for viscoelastic bodies"))?;
         let (moving, standing, speed) = match self.moving_body()? {
-            MovingBody::Lower => (&creeps[0], &creeps[1], speed),
-            MovingBody::Upper => (&creeps[1], &creeps[0], -speed),
+            MovingBody::Lower => (0, 1, speed),
+            MovingBody::Upper => (1, 0, -speed),
         };
-        let creep = moving.plus(&Creep::elastic(standing.relaxed()));
-        SteadySliding::new(self.lower_grid(), boundary, &creep, speed)
+        let bodies = match bodies {
+            Viscoelastic::HalfSpaces(creeps) => {
+                let standing = Creep::elastic(creeps[standing].relaxed());
+                SlidingBodies::HalfSpaces(creeps[moving].plus(&standing))
+            }
+            Viscoelastic::Layered(stacks) => {
+                SlidingBodies::Layered { moving: stacks[moving].clone(), standing: stacks[standing].clone() }
+            }
+        };
+        SteadySliding::new(self.lower_grid(), boundary, bodies, speed)
     }
 }
 

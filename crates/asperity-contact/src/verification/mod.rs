@@ -155,6 +155,7 @@ pub const CASES: &[Case] = &[
     adhesion::NO_WORK,
     viscoelastic::WAVE,
     viscoelastic::CYLINDER,
+    viscoelastic::LAYER,
     viscoelastic::PASS,
     viscoelastic::FAST,
     viscoelastic::CREEP,

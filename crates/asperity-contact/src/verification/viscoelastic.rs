@@ -5,15 +5,16 @@ use std::f64::consts::TAU;
 use super::{Case, Check, Expected, PARAMS, relative, study};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
-use crate::material::Material;
+use crate::material::{Coating, Material};
 use crate::motion::{LoadControl, Motion, Pair, Simulation, Strategy};
 use crate::operator::{Boundary, Edge, FreeFft};
-use crate::reference::ViscoelasticCylinder;
 use crate::reference::viscoelastic::{fast_sphere, sphere_under_step};
+use crate::reference::{CylinderOnFoundation, ViscoelasticCylinder};
 use crate::solver::Control;
 use crate::surface::Topography;
 use crate::viscoelastic::{
-    CreepMemory, Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_in_time, solve_steady,
+    BodyRelaxation, CreepMemory, Relaxation, RelaxationTerm, SlidingBodies, SteadyContact, SteadySliding,
+    ViscoelasticStack, solve_in_time, solve_steady,
 };
 
 /// Glassy over relaxed modulus.
@@ -27,7 +28,17 @@ fn standard_solid() -> Result<Relaxation> {
 }
 
 fn slide(grid: Grid, boundary: Boundary, gap: &Field, load: f64, speed: f64) -> Result<SteadyContact> {
-    let mut operator = SteadySliding::new(grid, boundary, &standard_solid()?.creep(), speed)?;
+    slide_over(&standard_solid()?.creep(), (grid, boundary), gap, load, speed)
+}
+
+fn slide_over(
+    bodies: impl Into<SlidingBodies>,
+    (grid, boundary): (Grid, Boundary),
+    gap: &Field,
+    load: f64,
+    speed: f64,
+) -> Result<SteadyContact> {
+    let mut operator = SteadySliding::new(grid, boundary, bodies, speed)?;
     solve_steady(&mut operator, gap, Control::Load(load), None, &PARAMS, &())
 }
 
@@ -84,6 +95,55 @@ fn cylinder() -> Result<Vec<Check>> {
             let touching = (0..n).rev().find(|i| found.solution.pressure[[*i, 0]] > 0.0);
             errors[0] = relative(found.drag / pitch, exact.drag_per_length());
             errors[1] = relative(touching.map_or(0.0, at) + 0.5 * pitch, ahead);
+        }
+        Ok(errors)
+    })
+}
+
+/// A cylinder on a compressible layer that relaxes and is thin compared with the contact, on a rigid body: a foundation, apart
+/// from edges as wide as the layer is thick.
+pub(super) const LAYER: Case = Case {
+    name: "Viscoelastic layer: cylinder sliding on a thin layer",
+    source: "Johnson (1985), section 9.4",
+    checks: layer,
+};
+
+fn layer() -> Result<Vec<Check>> {
+    const POISSON: f64 = 0.3;
+    let order = |finest| Expected::Order { order: 1.8..=3.3, finest };
+    let checks = [
+        ("drag, v = 0.5 a/τ", order(1e-4)),
+        ("largest pressure, v = 0.5 a/τ", order(1e-3)),
+        ("drag, v = 0.1 a/τ", order(1e-4)),
+        ("largest pressure, v = 0.1 a/τ", order(1e-3)),
+    ];
+    study("a/t", &[8, 16, 32], checks, |n| {
+        let thickness = 1.0 / n as f64;
+        let layer = Coating::new(thickness, 1.0, POISSON)?;
+        let rigid = Material::elastic(f64::INFINITY, 0.0)?;
+        let relaxation = BodyRelaxation { body: None, layers: vec![Some(standard_solid()?)] };
+        let moving = ViscoelasticStack::new(&rigid.clone().layered(vec![layer]), relaxation)?;
+        let standing = ViscoelasticStack::new(&rigid, BodyRelaxation::default())?;
+        let bodies = SlidingBodies::Layered { moving, standing };
+        // M/E of a material that cannot widen.
+        let oedometric = (1.0 - POISSON) / ((1.0 + POISSON) * (1.0 - 2.0 * POISSON));
+        let mut errors = [0.0; 4];
+        for (decay, errors) in [0.5, 0.1].into_iter().zip(errors.chunks_exact_mut(2)) {
+            let relaxed = oedometric / thickness;
+            let relaxing = relaxed * (RATIO - 1.0);
+            let exact = CylinderOnFoundation { radius: 1.0, ahead: 1.0, relaxed, relaxing, decay };
+            // The surface recovers over RATIO decays: the period is many of these.
+            let pitch = 0.25 * thickness;
+            let grid = Grid::new([400 * n, 1], [pitch; 2])?;
+            let gap =
+                Field::from_shape_fn(grid.shape, |(i, _)| 0.5 * (pitch * (i as f64 + 0.5) - 2.0).powi(2));
+            let load = exact.load_per_length() * pitch;
+            // The relaxation time is τ = 1/RATIO.
+            let speed = decay * RATIO;
+            let found = slide_over(bodies.clone(), (grid, Boundary::PERIODIC), &gap, load, speed)?;
+            let peak = (1..1000).map(|k| exact.pressure(1e-3 * f64::from(k))).fold(0.0, f64::max);
+            errors[0] = relative(found.drag / pitch, exact.drag_per_length());
+            errors[1] = relative(found.solution.max_pressure(), peak);
         }
         Ok(errors)
     })

@@ -1,5 +1,6 @@
 //! Linear viscoelastic bodies: relaxation and creep, steady sliding, memory in time.
 
+mod layers;
 mod master_curve;
 pub(crate) mod memory;
 mod operator;
@@ -10,6 +11,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
+pub use layers::{BodyRelaxation, SlidingBodies, ViscoelasticStack};
 pub use master_curve::{MasterFit, MasterPoint, fit_master_curve};
 pub use memory::{CreepMemory, solve_in_time};
 pub use operator::SteadySliding;

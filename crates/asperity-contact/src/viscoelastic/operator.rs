@@ -4,14 +4,16 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use std::sync::Arc;
 
 use asperity_transforms::num_complex::Complex64;
+use ndarray::Array2;
 
 use crate::error::{Error, Result, check_in};
 use crate::grid::{Field, Grid};
 use crate::kernel::{Line, normal_displacement, normal_displacements_across};
 use crate::math::fft::angular_frequency;
-use crate::math::{SkewConvolution, SkewKernel};
+use crate::math::{SkewConvolution, SkewKernel, parallel};
 use crate::operator::Boundary;
 use crate::units::{Dimension, Metre, MetrePerSecond};
+use crate::viscoelastic::layers::SlidingBodies;
 use crate::viscoelastic::series::Creep;
 use crate::viscoelastic::table::{ElasticCell, MovingCell};
 
@@ -26,7 +28,8 @@ const MIN_CELLS: usize = 32;
 /// û = (2/|q|) [J_g + Σ J_k/(1 − iq_x λ_k)] p̂
 /// ```
 ///
-/// L is the elastic half-space of a unit modulus. C is not symmetric; its symmetric part is positive.
+/// L is the elastic half-space of a unit modulus. Bodies with layers have the û of their layers, with complex moduli at the
+/// frequency ω = −q_x v. C is not symmetric; its symmetric part is positive.
 pub struct SteadySliding {
     pub(super) response: Response,
     slope: SkewConvolution,
@@ -37,9 +40,9 @@ pub struct SteadySliding {
 pub(super) struct Response {
     pub(super) grid: Grid,
     boundary: Boundary,
-    creep: Creep,
+    bodies: SlidingBodies,
     speed: MetrePerSecond,
-    /// Displacement at the offsets −nx < i < nx, 0 ≤ j < ny of a grid that is free along x.
+    /// Displacement of half-spaces at the offsets −nx < i < nx, 0 ≤ j < ny of a grid that is free along x.
     table: Option<Field>,
     displacement: SkewConvolution,
     preconditioner: SkewConvolution,
@@ -49,28 +52,51 @@ pub(super) struct Response {
     pub(super) convolutions: f64,
 }
 
+/// Displacement under the pressure on one cell or of one wave.
+enum Influence {
+    /// Half-spaces on a grid that is free along x: their compliance, and the table of [`Response`].
+    Cell(Creep, Field),
+    /// Bodies on a periodic grid.
+    Waves(Array2<Complex64>),
+}
+
 impl SteadySliding {
-    /// Creates the operator on `grid` of bodies with this `creep` compliance under pressure, that of both
+    /// Creates the operator on `grid` of `bodies` under pressure, such as the [`Creep`] compliance of both half-spaces
     /// together, whose contact moves at `speed` along x over the body that creeps. A speed below 0 is one
     /// along −x.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a speed that is not finite; [`Error::Unsupported`] for a boundary that is
-    /// periodic along x alone.
-    pub fn new(grid: Grid, boundary: Boundary, creep: &Creep, speed: MetrePerSecond) -> Result<Self> {
+    /// periodic along x alone, and for bodies with layers on a grid that is not periodic.
+    pub fn new(
+        grid: Grid,
+        boundary: Boundary,
+        bodies: impl Into<SlidingBodies>,
+        speed: MetrePerSecond,
+    ) -> Result<Self> {
         check_in(Dimension::Speed, "speed", speed, speed.is_finite(), "a finite speed")?;
-        let (slope, table) = match boundary {
-            Boundary::PERIODIC => (slope_of_waves(&grid, creep, speed), None),
+        let bodies = bodies.into();
+        let (slope, influence) = match (boundary, &bodies) {
+            (Boundary::PERIODIC, _) => {
+                let waves = responses_to_waves(&grid, &bodies, speed);
+                (slope_of_waves(&grid, &waves), Influence::Waves(waves))
+            }
             _ if boundary.repeats(0) => {
                 return Err(Error::Unsupported("steady sliding on a grid that is periodic along x alone"));
             }
-            _ => {
+            (_, SlidingBodies::Layered { .. }) => {
+                return Err(Error::Unsupported(
+                    "steady sliding of bodies with layers on a grid that is not periodic",
+                ));
+            }
+            (_, SlidingBodies::HalfSpaces(creep)) => {
                 let cell = moving_cell(&grid, boundary, creep, speed);
-                (cyclic(&cell.slope, &grid, boundary, speed, speed.signum()), Some(cell.displacement))
+                let slope = cyclic(&cell.slope, &grid, boundary, speed, speed.signum());
+                (slope, Influence::Cell(creep.clone(), cell.displacement))
             }
         };
         Ok(Self {
-            response: Response::new(grid, boundary, creep, speed, table),
+            response: Response::new(grid, boundary, bodies, speed, influence),
             slope: SkewConvolution::new(Arc::new(slope), grid.shape),
             field: grid.zeros(),
         })
@@ -117,25 +143,28 @@ impl Response {
     fn new(
         grid: Grid,
         boundary: Boundary,
-        creep: &Creep,
+        bodies: SlidingBodies,
         speed: MetrePerSecond,
-        table: Option<Field>,
+        influence: Influence,
     ) -> Self {
-        let (displacement, preconditioner) = match &table {
-            None => kernels_of_waves(&grid, creep, speed),
-            Some(table) => (
-                cyclic(table, &grid, boundary, speed, 1.0),
-                inverse_of_waves(&grid, boundary.padded(grid.shape), creep, speed),
+        let (displacement, preconditioner, table) = match influence {
+            Influence::Waves(waves) => {
+                let [displacement, preconditioner] = kernels_of_waves(&grid, &waves, &bodies);
+                (displacement, preconditioner, None)
+            }
+            Influence::Cell(creep, table) => (
+                cyclic(&table, &grid, boundary, speed, 1.0),
+                inverse_of_waves(&grid, boundary.padded(grid.shape), &creep, speed),
+                Some(table),
             ),
         };
         let [displacement, preconditioner] =
             [displacement, preconditioner].map(|kernel| SkewConvolution::new(Arc::new(kernel), grid.shape));
-        let creep = creep.clone();
         let (self_influence, convolutions) = (0.0, 0.0);
         let mut this = Self {
             grid,
             boundary,
-            creep,
+            bodies,
             speed,
             table,
             displacement,
@@ -162,8 +191,13 @@ impl Response {
         }
         let pitch = self.grid.pitch.map(|pitch| 2.0 * pitch);
         let grid = Grid::new(shape.map(|cells| cells / 2), pitch).ok()?;
-        let table = self.table.as_ref().map(|table| self.coarse_table(table, grid.shape));
-        Some(Self::new(grid, self.boundary, &self.creep, self.speed, table))
+        let influence = match (&self.table, &self.bodies) {
+            (Some(table), SlidingBodies::HalfSpaces(creep)) => {
+                Influence::Cell(creep.clone(), self.coarse_table(table, grid.shape))
+            }
+            _ => Influence::Waves(responses_to_waves(&grid, &self.bodies, self.speed)),
+        };
+        Some(Self::new(grid, self.boundary, self.bodies.clone(), self.speed, influence))
     }
 
     /// Returns the table of a coarse grid. Along each axis two of the four pairs of cells in two coarse cells have the offset
@@ -202,30 +236,37 @@ fn wave(grid: &Grid, [kx, ky]: [usize; 2]) -> [f64; 2] {
     [angular_frequency(kx, nx, grid.pitch[0]), angular_frequency(ky, ny, grid.pitch[1])]
 }
 
-fn response_to([qx, qy]: [f64; 2], creep: &Creep, speed: MetrePerSecond) -> Complex64 {
-    2.0 / qx.hypot(qy) * creep.complex(-qx * speed)
+/// Displacement û of a periodic grid under each wave, `[kx, ky]` for `ky ≤ ny/2`; 0 under the mean pressure.
+fn responses_to_waves(grid: &Grid, bodies: &SlidingBodies, speed: MetrePerSecond) -> Array2<Complex64> {
+    let mut responses = Array2::zeros([grid.shape[0], grid.shape[1] / 2 + 1]);
+    parallel::tasks(responses.outer_iter_mut().enumerate(), |(kx, mut row)| {
+        let at_frequency = bodies.at(-wave(grid, [kx, 0])[0] * speed);
+        for (ky, response) in row.iter_mut().enumerate().skip(usize::from(kx == 0)) {
+            let [qx, qy] = wave(grid, [kx, ky]);
+            *response = at_frequency.response(qx.hypot(qy));
+        }
+    });
+    responses
 }
 
 /// Displacement of a periodic grid from its harmonics, and its inverse.
-fn kernels_of_waves(grid: &Grid, creep: &Creep, speed: MetrePerSecond) -> (SkewKernel, SkewKernel) {
+fn kernels_of_waves(grid: &Grid, waves: &Array2<Complex64>, bodies: &SlidingBodies) -> [SkewKernel; 2] {
     // The mean of the pressure is preconditioned like the longest wave.
     let longest = TAU / grid.extent()[0].max(grid.extent()[1]);
-    let mean = Complex64::from(0.5 * longest / creep.relaxed());
-    let of = |zero: Complex64, value: &dyn Fn(Complex64) -> Complex64| {
-        SkewKernel::from_transform(grid.shape, |kx, ky| match [kx, ky] {
-            [0, 0] => zero,
-            k => value(response_to(wave(grid, k), creep, speed)),
-        })
-    };
-    (of(0.0.into(), &|response| response), of(mean, &|response| response.inv()))
+    let mean = Complex64::from(bodies.relaxed_stiffness(longest));
+    let inverse = |kx, ky| if [kx, ky] == [0, 0] { mean } else { waves[[kx, ky]].inv() };
+    [
+        SkewKernel::from_transform(grid.shape, |kx, ky| waves[[kx, ky]]),
+        SkewKernel::from_transform(grid.shape, inverse),
+    ]
 }
 
-/// Slope of the displacement of a periodic grid.
-fn slope_of_waves(grid: &Grid, creep: &Creep, speed: MetrePerSecond) -> SkewKernel {
+/// Slope of the displacement of a periodic grid from its harmonics.
+fn slope_of_waves(grid: &Grid, waves: &Array2<Complex64>) -> SkewKernel {
     // Only the even part of the shortest wave of an even number of cells is known, and it has no slope.
     SkewKernel::from_transform(grid.shape, |kx, ky| match [kx, ky] {
         [kx, ky] if kx == 0 && ky == 0 || 2 * kx == grid.shape[0] => 0.0.into(),
-        k => Complex64::i() * wave(grid, k)[0] * response_to(wave(grid, k), creep, speed),
+        [kx, ky] => Complex64::i() * wave(grid, [kx, ky])[0] * waves[[kx, ky]],
     })
 }
 

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use rand::{RngExt as _, SeedableRng as _};
 
 use crate::grid::{Field, Grid};
-use crate::kernel::normal_displacement;
+use crate::kernel::{Stack, normal_displacement};
+use crate::material::{Coating, Material};
 use crate::math::RealFft2;
 use crate::math::fft::angular_frequency;
 use crate::operator::{Boundary, Edge};
@@ -13,7 +14,10 @@ use crate::reference::ViscoelasticCylinder;
 use crate::reference::viscoelastic::{fast_sphere, slow_paraboloid};
 use crate::solver::{Control, Params};
 use crate::viscoelastic::table::{ElasticCell, MovingCell};
-use crate::viscoelastic::{Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_steady};
+use crate::viscoelastic::{
+    BodyRelaxation, Creep, Relaxation, RelaxationTerm, SlidingBodies, SteadyContact, SteadySliding,
+    ViscoelasticStack, solve_steady,
+};
 
 fn body(terms: &[(f64, f64)]) -> Relaxation {
     let terms = terms.iter().map(|&(modulus, time)| RelaxationTerm { modulus, time });
@@ -233,4 +237,94 @@ fn a_coarse_response_is_the_mean_of_four_cells() {
             }
         }
     }
+}
+
+/// Returns layers (t, relaxation, ν), from the surface down, on a body, and the material with the moduli that `young` takes.
+fn stack(
+    layers: &[(f64, &Relaxation, f64)],
+    (base, poisson): (&Relaxation, f64),
+    young: fn(&Relaxation) -> f64,
+) -> (ViscoelasticStack, Material) {
+    let coatings = layers.iter().map(|(t, layer, nu)| Coating::new(*t, young(layer), *nu).unwrap());
+    let material = Material::elastic(young(base), poisson).unwrap().layered(coatings.collect());
+    let relaxation = BodyRelaxation {
+        body: Some(base.clone()),
+        layers: layers.iter().map(|(_, layer, _)| Some((*layer).clone())).collect(),
+    };
+    (ViscoelasticStack::new(&material, relaxation).unwrap(), material)
+}
+
+#[test]
+fn slow_waves_see_the_relaxed_layers_and_fast_ones_the_glassy_layers() {
+    let [soft, stiff, base] =
+        [standard(50.0), body(&[(20.0, 0.3), (90.0, 1e-3)]), body(&[(3.0, 2.0), (5.0, 0.01)])];
+    let layers = [(0.3, &soft, 0.5), (0.1, &stiff, 0.3), (2.0, &soft, 0.4)];
+    for (frequency, young) in
+        [(1e-11, Relaxation::relaxed as fn(&Relaxation) -> f64), (1e14, Relaxation::glassy)]
+    {
+        let (relaxing, elastic) = stack(&layers, (&base, 0.45), young);
+        for q in [1e-3, 0.3, 1.0, 5.0, 80.0] {
+            let (found, expected) = (relaxing.at(frequency).normal(q), Stack::new(&elastic).normal(q));
+            assert!((found - expected).norm() < 1e-9 * expected, "{frequency}, {q}: {found} for {expected}");
+        }
+    }
+}
+
+#[test]
+fn layers_that_are_alike_are_the_viscoelastic_half_space() {
+    let rubber = body(&[(2.0, 1.0), (5.0, 0.1), (30.0, 3e-3)]);
+    let nu = 0.45;
+    let (relaxing, _) = stack(&[(0.1, &rubber, nu); 5], (&rubber, nu), Relaxation::relaxed);
+    let rigid = Material::elastic(f64::INFINITY, 0.0).unwrap();
+    let rigid = ViscoelasticStack::new(&rigid, BodyRelaxation::default()).unwrap();
+    let layered = SlidingBodies::Layered { moving: relaxing, standing: rigid };
+    let half_space = SlidingBodies::from(&rubber.creep().times(1.0 - nu * nu));
+    for frequency in [-300.0, -1.0, 0.0, 0.02, 5.0, 1e6] {
+        for q in [1e-3, 0.5, 1.0, 7.0, 300.0] {
+            let [found, expected] = [&layered, &half_space].map(|bodies| bodies.at(frequency).response(q));
+            assert!(
+                (found - expected).norm() < 1e-12 * expected.norm(),
+                "{frequency}, {q}: {found}, {expected}"
+            );
+        }
+    }
+    // The same contact and the same cost.
+    let grid = Grid::new([64, 48], [0.02; 2]).unwrap();
+    let gap = Field::from_shape_fn(grid.shape, |(i, j)| {
+        let [x, y] = [i, j].map(|k| 0.02 * k as f64);
+        0.5 * ((x - 0.64).powi(2) + (y - 0.48).powi(2)) + 2e-3 * ((40.0 * x).cos() + (60.0 * y).sin())
+    });
+    let [one, other] = [layered, half_space].map(|bodies| {
+        let mut operator = SteadySliding::new(grid, Boundary::PERIODIC, bodies, 0.3).unwrap();
+        solve_steady(&mut operator, &gap, Control::Load(0.02), None, &Params::default(), &()).unwrap()
+    });
+    assert!((one.drag / other.drag - 1.0).abs() < 1e-9, "{} {}", one.drag, other.drag);
+    assert_eq!(one.solution.stats.convolutions, other.solution.stats.convolutions);
+}
+
+#[test]
+fn a_wave_on_layers_loses_the_energy_of_their_stiffness() {
+    let (n, speed, amplitude) = (48, 0.02, 1e-3);
+    let grid = Grid::new([n, 4], [1.0 / n as f64; 2]).unwrap();
+    let q = 2.0 * TAU;
+    let gap = Field::from_shape_fn(grid.shape, |(i, _)| -amplitude * (q * i as f64 / n as f64).cos());
+    let (soft, stiff) = (standard(10.0), body(&[(300.0, 0.2)]));
+    let skin = [(0.02, &stiff, 0.4), (0.1, &soft, 0.3)];
+    let (moving, _) = stack(&skin, (&stiff, 0.5), Relaxation::relaxed);
+    let (standing, _) = stack(&[(0.05, &soft, 0.3)], (&stiff, 0.3), Relaxation::relaxed);
+    let load = 0.5 * grid.area();
+    // The stiffness of both bodies in series, of which the one that stands still is relaxed.
+    let compliance = moving.at(q * speed).normal(q) + standing.at(0.0).normal(q);
+    let expected = 0.5 * q * amplitude * amplitude * compliance.inv().im * grid.area();
+    let bodies = SlidingBodies::Layered { moving, standing };
+    for speed in [speed, -speed] {
+        let mut operator = SteadySliding::new(grid, Boundary::PERIODIC, bodies.clone(), speed).unwrap();
+        let params = Params::default().with_tolerance(1e-10);
+        let contact = solve_steady(&mut operator, &gap, Control::Load(load), None, &params, &()).unwrap();
+        assert!(contact.solution.pressure.iter().all(|p| *p > 0.0));
+        assert!((contact.drag / expected - 1.0).abs() < 1e-9, "{}", contact.drag / expected - 1.0);
+    }
+    let refused = SteadySliding::new(grid, Boundary::FREE, bodies, speed).err().unwrap();
+    assert!(refused.to_string().contains("layers on a grid that is not periodic"), "{refused}");
+    assert!(SteadySliding::new(grid, Boundary::FREE, &Creep::elastic(1.0), speed).is_ok());
 }

@@ -47,6 +47,7 @@ cases! {
     bodies_that_hardly_attract_each_other_press_as_without: "adhesive sphere: w → 0",
     a_wave_takes_the_loss_of_its_frequency: "Viscoelastic body: wave in full contact",
     rubber_resists_a_cylinder_and_lets_it_go_late: "Viscoelastic body: sliding cylinder",
+    a_thin_layer_of_rubber_resists_as_a_foundation: "Viscoelastic layer: cylinder sliding on a thin layer",
     rubber_that_a_cylinder_passes_over_soon_resists_it_steadily: "Viscoelastic body: cylinder in a pass",
     a_fast_sphere_meets_the_glassy_body: "Viscoelastic body: fast sphere",
     a_sphere_sinks_in_as_its_bodies_creep: "Viscoelastic body: sphere under a step of load",

@@ -1,5 +1,9 @@
 //! Response of bonded layers to one wave.
 
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use asperity_transforms::num_complex::Complex64;
+
 use crate::kernel::Traction;
 use crate::material::Material;
 use crate::stress::Component;
@@ -21,25 +25,55 @@ use crate::units::{Metre, Pascal};
 /// and in a thick one from its stiffness, whose terms decay as e^(−x). So nothing grows, and nothing cancels at
 /// any thickness. Out of the plane the state (u_y, σ_yz) follows from [`potential_compliance`].
 ///
+/// All of it holds for complex moduli M as well: those of layers that relax, under a pressure that oscillates.
+///
 /// Rokhlin and Wang, J. Acoust. Soc. Am. 112, 822 (2002); Chen, Int. J. Solids Struct. 7, 357 (1971).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stack {
+pub struct Stack<M = Pascal> {
     /// From the surface down.
-    layers: Vec<Layer>,
-    base: Elastic,
+    layers: Vec<Layer<M>>,
+    base: Elastic<M>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Layer {
+struct Layer<M = Pascal> {
     thickness: Metre,
-    elastic: Elastic,
+    elastic: Elastic<M>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Elastic {
+struct Elastic<M = Pascal> {
     /// Shear modulus; infinite for a rigid body.
-    shear: Pascal,
+    shear: M,
     poisson: f64,
+}
+
+/// A modulus: a real number of an elastic material, a complex one of a material that relaxes, at a frequency.
+pub trait Modulus:
+    Copy
+    + From<f64>
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+{
+    /// Returns a `number` over this one, 0 over the infinite modulus of a rigid body.
+    fn divide(self, number: f64) -> Self;
+}
+
+impl Modulus for f64 {
+    fn divide(self, number: f64) -> Self {
+        number / self
+    }
+}
+
+impl Modulus for Complex64 {
+    fn divide(self, number: f64) -> Self {
+        if self.re.is_infinite() { 0.0.into() } else { number / self }
+    }
 }
 
 /// Displacements of the surface of one body per unit traction of a wave, m/Pa. In the plane of the wave, the shear q_∥
@@ -60,25 +94,39 @@ pub struct Wave {
     pub coupling: f64,
 }
 
-impl Stack {
-    /// Creates the layers of a material on its body.
-    pub fn new(material: &Material) -> Self {
-        let elastic = |young: Pascal, poisson: f64| Elastic { shear: 0.5 * young / (1.0 + poisson), poisson };
-        let layers = material
-            .layers
-            .iter()
-            .map(|layer| Layer { thickness: layer.thickness, elastic: elastic(layer.young, layer.poisson) });
-        Self { layers: layers.collect(), base: elastic(material.young, material.poisson) }
+impl<M: Modulus> Stack<M> {
+    /// Creates the layers of a material on its body with other Young's moduli: those of the layers from the surface down,
+    /// then that of the body below them.
+    ///
+    /// # Panics
+    /// If the number of moduli differs from that of the layers and the body.
+    pub fn with_moduli(material: &Material, young: &[M]) -> Self {
+        let (base, young) = young.split_last().expect("the modulus of the body");
+        assert_eq!(young.len(), material.layers.len(), "moduli of the layers");
+        let elastic = |young: M, poisson: f64| Elastic { shear: young * 0.5 / (1.0 + poisson), poisson };
+        let layers = material.layers.iter().zip(young).map(|(layer, young)| Layer {
+            thickness: layer.thickness,
+            elastic: elastic(*young, layer.poisson),
+        });
+        Self { layers: layers.collect(), base: elastic(*base, material.poisson) }
     }
 
     /// Computes the normal displacement under the pressure of a wave of wavenumber q > 0, m/Pa.
-    pub fn normal(&self, q: f64) -> f64 {
+    pub fn normal(&self, q: f64) -> M {
         self.plane(q)[1][1] / q
     }
 
-    fn plane(&self, q: f64) -> Plane {
+    fn plane(&self, q: f64) -> Plane<M> {
         let below = self.base.half_space();
         self.layers.iter().rev().fold(below, |below, layer| layer.under(q, below))
+    }
+}
+
+impl Stack {
+    /// Creates the layers of a material on its body.
+    pub fn new(material: &Material) -> Self {
+        let layers = material.layers.iter().map(|layer| layer.young);
+        Self::with_moduli(material, &layers.chain([material.young]).collect::<Vec<_>>())
     }
 
     /// Computes the response to a wave of wavenumber q > 0.
@@ -299,7 +347,7 @@ pub fn potential_compliance(layers: impl IntoIterator<Item = (Metre, f64)>, base
 }
 
 /// In-plane compliances of a body times q, 1/Pa: −(i u_x, u_z) q under (i σ_xz, σ_zz) on its surface.
-type Plane = [[f64; 2]; 2];
+type Plane<M = f64> = [[M; 2]; 2];
 
 /// Above this qt a layer is taken by its stiffness.
 const THICK: f64 = 1.0;
@@ -309,16 +357,19 @@ impl Elastic {
         let plane = self.half_space();
         Wave { along: plane[0][0], across: self.shear.recip(), normal: plane[1][1], coupling: -plane[0][1] }
     }
+}
 
-    fn half_space(self) -> Plane {
-        let [own, coupling] = [1.0 - self.poisson, -0.5 * (1.0 - 2.0 * self.poisson)].map(|c| c / self.shear);
+impl<M: Modulus> Elastic<M> {
+    fn half_space(self) -> Plane<M> {
+        let [own, coupling] =
+            [1.0 - self.poisson, -0.5 * (1.0 - 2.0 * self.poisson)].map(|c| self.shear.divide(c));
         [[own, coupling], [coupling, own]]
     }
 }
 
-impl Layer {
+impl<M: Modulus> Layer<M> {
     /// Returns the compliances of the layer on a body with the compliances `below`.
-    fn under(&self, q: f64, below: Plane) -> Plane {
+    fn under(&self, q: f64, below: Plane<M>) -> Plane<M> {
         let Elastic { shear, poisson } = self.elastic;
         let below = below.map(|row| row.map(|value| -shear * value));
         let x = q * self.thickness;
@@ -329,8 +380,9 @@ impl Layer {
 
 /// Returns the compliances (i u_x, u_z) under (i σ_xz, σ_zz)/Gq of a layer of shear modulus G = 1 and qt = x on a body
 /// with the compliances `below`, from the solution e^(Ax).
-fn under_thin(x: f64, poisson: f64, below: Plane) -> Plane {
+fn under_thin<M: Modulus>(x: f64, poisson: f64, below: Plane<M>) -> Plane<M> {
     let [[uu, ut], [tu, tt]] = solution(x, poisson);
+    let [uu, ut, tu, tt]: [Plane<M>; 4] = [of_moduli(uu), of_moduli(ut), of_moduli(tu), of_moduli(tt)];
     product(inverse(minus(uu, product(below, tu))), minus(product(below, tt), ut))
 }
 
@@ -362,10 +414,12 @@ fn solution(x: f64, poisson: f64) -> [[Plane; 2]; 2] {
 ///       ⎣a(a − 1) sinh² x − 2x²         (a + 1)(a sinh x cosh x + x)  ⎦                           ⎣x sinh x              a sinh x + x cosh x   ⎦
 /// ```
 /// K₃ is −K₀ with the other sign off the diagonal.
-fn under_thick(x: f64, poisson: f64, below: Plane) -> Plane {
+fn under_thick<M: Modulus>(x: f64, poisson: f64, below: Plane<M>) -> Plane<M> {
     let [top, across, bottom] = stiffness(x, poisson);
+    let [top, across, bottom]: [Plane<M>; 3] = [of_moduli(top), of_moduli(across), of_moduli(bottom)];
     let minus_transposed = [[-across[0][0], -across[1][0]], [-across[0][1], -across[1][1]]];
-    let along = product(inverse(minus(IDENTITY, product(below, bottom))), product(below, minus_transposed));
+    let identity = of_moduli(IDENTITY);
+    let along = product(inverse(minus(identity, product(below, bottom))), product(below, minus_transposed));
     inverse(plus(top, product(across, along)))
 }
 
@@ -401,20 +455,25 @@ fn odd_rest(x: f64) -> f64 {
 
 const IDENTITY: Plane = [[1.0, 0.0], [0.0, 1.0]];
 
-fn product(a: Plane, b: Plane) -> Plane {
+/// Returns a plane of real numbers. Written out it costs nothing where moduli are real, which maps of arrays do.
+fn of_moduli<M: Modulus>([[a, b], [c, d]]: Plane) -> Plane<M> {
+    [[a.into(), b.into()], [c.into(), d.into()]]
+}
+
+fn product<M: Modulus>(a: Plane<M>, b: Plane<M>) -> Plane<M> {
     a.map(|row| [0, 1].map(|j| row[0] * b[0][j] + row[1] * b[1][j]))
 }
 
-fn plus(a: Plane, b: Plane) -> Plane {
+fn plus<M: Modulus>(a: Plane<M>, b: Plane<M>) -> Plane<M> {
     [0, 1].map(|i| [0, 1].map(|j| a[i][j] + b[i][j]))
 }
 
-fn minus(a: Plane, b: Plane) -> Plane {
+fn minus<M: Modulus>(a: Plane<M>, b: Plane<M>) -> Plane<M> {
     [0, 1].map(|i| [0, 1].map(|j| a[i][j] - b[i][j]))
 }
 
-fn inverse([[a, b], [c, d]]: Plane) -> Plane {
-    let scale = (a * d - b * c).recip();
+fn inverse<M: Modulus>([[a, b], [c, d]]: Plane<M>) -> Plane<M> {
+    let scale = (a * d - b * c).divide(1.0);
     [[d * scale, -b * scale], [-c * scale, a * scale]]
 }
 
@@ -487,14 +546,19 @@ mod tests {
     }
 
     /// Solves for the potentials of all layers at once: σ_zz = −φ, i σ_xz = φ′ and the displacements of Hooke's law, for
-    /// q = 1 and φ = A e^(−z) + B z e^(−z) + C e^(z − t) + D (t − z) e^(z − t) in each layer.
-    fn by_potentials(layers: &[[f64; 3]], base: [f64; 2]) -> [[f64; 2]; 2] {
-        let is_rigid = base[0] == RIGID;
+    /// q = 1 and φ = A e^(−z) + B z e^(−z) + C e^(z − t) + D (t − z) e^(z − t) in each layer (t, ν) of these moduli.
+    fn by_potentials<M: Modulus>(
+        layers: &[[f64; 2]],
+        young: &[M],
+        [base, poisson]: [f64; 2],
+        size: impl Fn(M) -> f64,
+    ) -> [[M; 2]; 2] {
+        let (is_rigid, zero) = (base == RIGID, M::from(0.0));
         let count = layers.len();
         let unknowns = 4 * count + if is_rigid { 0 } else { 2 };
         // State i u_x, u_z, i σ_xz, σ_zz of each of the four potentials at a depth.
-        let states = |[t, young, poisson]: [f64; 3], z: f64| -> [[f64; 4]; 4] {
-            let shear = 0.5 * young / (1.0 + poisson);
+        let states = |[t, poisson]: [f64; 2], young: M, z: f64| -> [[M; 4]; 4] {
+            let shear = young / (2.0 * (1.0 + poisson));
             let (down, up) = ((-z).exp(), (z - t).exp());
             let potentials = [
                 [down, -down, down, -down],
@@ -504,60 +568,64 @@ mod tests {
             ];
             potentials.map(|[f, f1, f2, f3]| {
                 [
-                    0.5 * ((1.0 - poisson) * f2 + poisson * f) / shear,
-                    (0.5 * ((1.0 - poisson) * f3 + poisson * f1) - f1) / shear,
-                    f1,
-                    -f,
+                    M::from(0.5 * ((1.0 - poisson) * f2 + poisson * f)) / shear,
+                    M::from(0.5 * ((1.0 - poisson) * f3 + poisson * f1) - f1) / shear,
+                    f1.into(),
+                    (-f).into(),
                 ]
             })
         };
-        let mut rows: Vec<Vec<f64>> = Vec::new();
+        let mut rows: Vec<Vec<M>> = Vec::new();
         for component in [2, 3] {
-            let mut row = vec![0.0; unknowns];
-            (0..4).for_each(|k| row[k] = states(layers[0], 0.0)[k][component]);
+            let mut row = vec![zero; unknowns];
+            (0..4).for_each(|k| row[k] = states(layers[0], young[0], 0.0)[k][component]);
             rows.push(row);
         }
         for n in 0..count {
-            let bottom = states(layers[n], layers[n][0]);
+            let bottom = states(layers[n], young[n], layers[n][0]);
             let below = layers.get(n + 1).copied();
-            let top = states(below.unwrap_or([0.0, base[0], base[1]]), 0.0);
+            let top = states(below.unwrap_or([0.0, poisson]), young[n + 1], 0.0);
             let next = if below.is_some() { 4 } else { unknowns - 4 * count };
             for component in 0..if next == 0 { 2 } else { 4 } {
-                let mut row = vec![0.0; unknowns];
+                let mut row = vec![zero; unknowns];
                 (0..4).for_each(|k| row[4 * n + k] = bottom[k][component]);
                 (0..next).for_each(|k| row[4 * (n + 1) + k] = -top[k][component]);
                 rows.push(row);
             }
         }
         let mut columns = [0, 1].map(|load| {
-            let mut right = vec![0.0; unknowns];
-            right[load] = 1.0;
+            let mut right = vec![zero; unknowns];
+            right[load] = 1.0.into();
             right
         });
         // Gauss' elimination with pivots, of equations scaled to their largest coefficient.
         for (n, row) in rows.iter_mut().enumerate() {
-            let largest = row.iter().fold(0.0f64, |most, value| most.max(value.abs()));
-            row.iter_mut().for_each(|value| *value /= largest);
-            columns.iter_mut().for_each(|right| right[n] /= largest);
+            let largest = row.iter().fold(0.0f64, |most, value| most.max(size(*value)));
+            row.iter_mut().for_each(|value| *value = *value / largest);
+            columns.iter_mut().for_each(|right| right[n] = right[n] / largest);
         }
         for k in 0..unknowns {
-            let pivot = (k..unknowns).max_by(|a, b| rows[*a][k].abs().total_cmp(&rows[*b][k].abs())).unwrap();
+            let pivot = (k..unknowns).max_by(|a, b| size(rows[*a][k]).total_cmp(&size(rows[*b][k]))).unwrap();
             rows.swap(k, pivot);
             columns.iter_mut().for_each(|right| right.swap(k, pivot));
             for n in k + 1..unknowns {
                 let factor = rows[n][k] / rows[k][k];
                 let (above, below) = rows.split_at_mut(n);
-                below[0].iter_mut().zip(&above[k]).for_each(|(value, above)| *value -= factor * above);
-                columns.iter_mut().for_each(|right| right[n] -= factor * right[k]);
+                below[0]
+                    .iter_mut()
+                    .zip(&above[k])
+                    .for_each(|(value, above)| *value = *value - factor * *above);
+                columns.iter_mut().for_each(|right| right[n] = right[n] - factor * right[k]);
             }
         }
-        let top = states(layers[0], 0.0);
+        let top = states(layers[0], young[0], 0.0);
+        let sum = |terms: &mut dyn Iterator<Item = M>| terms.fold(zero, |sum, term| sum + term);
         let displacements = columns.map(|mut right| {
             for k in (0..unknowns).rev() {
-                let known: f64 = (k + 1..unknowns).map(|n| rows[k][n] * right[n]).sum();
+                let known = sum(&mut (k + 1..unknowns).map(|n| rows[k][n] * right[n]));
                 right[k] = (right[k] - known) / rows[k][k];
             }
-            [0, 1].map(|component| (0..4).map(|k| top[k][component] * right[k]).sum::<f64>())
+            [0, 1].map(|component| sum(&mut (0..4).map(|k| top[k][component] * right[k])))
         });
         [0, 1].map(|i| [0, 1].map(|j| displacements[j][i]))
     }
@@ -568,24 +636,50 @@ mod tests {
             let mut share =
                 || Ok::<f64, arbtest::arbitrary::Error>(u.arbitrary::<u32>()? as f64 / f64::from(u32::MAX));
             let count = 1 + (7.0 * share()?) as usize;
-            let mut layers = Vec::new();
+            let (mut layers, mut moduli) = (Vec::new(), Vec::new());
+            // Loss angles of up to 90°.
+            let mut phases = Vec::new();
             for _ in 0..count {
-                let thickness = 10f64.powf(2.0 * share()? - 1.0);
-                let young = 10f64.powf(2.0 * share()? - 1.0);
-                layers.push([thickness, young, 0.5 * (1.2 * share()?).min(1.0)]);
+                layers.push([10f64.powf(2.0 * share()? - 1.0), 0.5 * (1.2 * share()?).min(1.0)]);
+                moduli.push(10f64.powf(2.0 * share()? - 1.0));
+                phases.push(0.5 * std::f64::consts::PI * share()?);
             }
             let base =
                 [if share()? < 0.2 { RIGID } else { 10f64.powf(2.0 * share()? - 1.0) }, 0.5 * share()?];
-            let found = stack(&layers, base).response(1.0);
-            let [[along, one], [other, normal]] = by_potentials(&layers, base);
+            moduli.push(base[0]);
+            phases.push(if base[0] == RIGID { 0.0 } else { 0.5 * std::f64::consts::PI * share()? });
+            let coatings = layers
+                .iter()
+                .zip(&moduli)
+                .map(|([t, poisson], young)| Coating::new(*t, *young, *poisson).unwrap());
+            let material = Material::elastic(base[0], base[1]).unwrap().layered(coatings.collect());
+            let found = Stack::new(&material).response(1.0);
+            let [[along, one], [other, normal]] = by_potentials(&layers, &moduli, base, f64::abs);
             let across = found.across;
             let expected = Wave { along: -along, across, normal: -normal, coupling: one };
-            assert_alike(found, expected, 1e-10, &(&layers, base));
+            assert_alike(found, expected, 1e-10, &(&layers, &moduli, base));
             assert!(
                 (one - other).abs() < 1e-10 * along.abs().max(normal.abs()),
                 "reciprocity: {one} and {other}"
             );
             assert!(found.normal > 0.0 && found.along * found.normal > found.coupling.powi(2), "{found:?}");
+            let complex: Vec<Complex64> = moduli
+                .iter()
+                .zip(&phases)
+                .map(
+                    |(young, phase)| {
+                        if *young == RIGID { RIGID.into() } else { Complex64::from_polar(*young, *phase) }
+                    },
+                )
+                .collect();
+            let found = Stack::with_moduli(&material, &complex).normal(1.0);
+            let expected = -by_potentials(&layers, &complex, base, Complex64::norm)[1][1];
+            assert!(
+                (found - expected).norm() < 1e-10 * expected.norm(),
+                "{layers:?}, {complex:?}: {found} for {expected}"
+            );
+            // A load that oscillates does work: û has the sign of a loss.
+            assert!(found.im < 1e-12 * found.norm(), "{found}");
             Ok(())
         })
         .budget_ms(500);

@@ -5,8 +5,8 @@ use crate::error::Result;
 use crate::units::{Metre, Pascal};
 use asperity_base::beside::{Beside, Scale};
 use asperity_base::exists;
-use asperity_base::table::{Key, Section, Source, Table};
-use asperity_derive::Table;
+use asperity_base::table::{Key, Part, Source};
+use asperity_derive::Part;
 
 const THICK: Beside = Beside::most(Scale::Side, 10.0, "contacts do not feel the body under it");
 
@@ -28,8 +28,7 @@ pub struct Coating {
 }
 
 /// The keys of a layer. A named material gives those that are missing.
-#[derive(Table)]
-#[table("lower.coating", "upper.coating", "lower.layers", "upper.layers")]
+#[derive(Part)]
 struct Keys {
     /// Thickness of the layer.
     #[key(quantity = Length, range = AboveZero, example = "\"2 um\"", exists = exists::LAYER, beside = [THICK])]
@@ -86,18 +85,18 @@ impl Coating {
     }
 }
 
-impl Table for Coating {
-    const TABLES: &'static [&'static str] = Keys::TABLES;
-    const KEYS: &'static [Key] = Keys::KEYS;
+impl Part for Coating {
+    const CHOOSES: bool = false;
 
-    fn sections() -> Vec<Section> {
-        Keys::sections()
+    fn keys() -> Vec<Key> {
+        Keys::keys()
     }
 
     fn read(source: &dyn Source) -> Result<Self> {
         let Keys { thickness, material, young, poisson, conductivity, resistivity } = Keys::read(source)?;
         let constant = |name, given, named: fn(&NamedMaterial) -> f64| {
-            let key = Self::KEYS.iter().find(|key| key.name == name).expect("a layer has this key");
+            let keys = Self::keys();
+            let key = keys.iter().find(|key| key.name == name).expect("a layer has this key");
             NamedMaterial::constant(source, key, given, material.map(named))
         };
         Ok(Self {

@@ -34,7 +34,7 @@ pub use inclusion::Inclusion;
 pub use line::HertzLine;
 pub use punch::FlatPunch;
 pub use sticking::{StickingPunch, StickingSphere};
-pub use viscoelastic::ViscoelasticCylinder;
+pub use viscoelastic::{CylinderOnFoundation, ViscoelasticCylinder};
 pub use westergaard::Westergaard;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Viscoelastic bodies: a rolling cylinder, a sphere under a step of load, limits of slow and fast sliding.
+//! Viscoelastic bodies: a rolling cylinder, also on a foundation, a sphere under a step of load, limits of slow and fast sliding.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -113,6 +113,61 @@ impl ViscoelasticCylinder {
     }
 }
 
+/// A rigid cylinder that slides or rolls without friction over a foundation that relaxes: a thin compressible layer on a rigid
+/// body.
+///
+/// A point of the foundation bears `p = ∫ k(t − t′) ẇ dt′` under its penetration w, `k(t) = k₀ + k₁ e^(−t/τ)`. The contact begins where the
+/// surface at rest meets the cylinder, at the distance a ahead of its lowest point, and ends at the distance b behind it, where the
+/// pressure falls to 0. With ℓ = vτ
+///
+/// ```text
+/// 2R p(x) = k₀ (a² − x²) + 2k₁ℓ [x + ℓ − (a + ℓ) e^(−(a − x)/ℓ)]
+/// ```
+///
+/// Johnson, Contact Mechanics (1985), section 9.4, after May, Morris and Atack, J. Appl. Phys. 30, 1713 (1959).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CylinderOnFoundation {
+    /// Radius R of the cylinder.
+    pub radius: Metre,
+    /// Distance a that the contact reaches ahead, > 0.
+    pub ahead: Metre,
+    /// Stiffness k₀ after a long time, Pa/m.
+    pub relaxed: f64,
+    /// Stiffness k₁ that relaxes, Pa/m.
+    pub relaxing: f64,
+    /// Distance ℓ = vτ in which it relaxes.
+    pub decay: Metre,
+}
+
+impl CylinderOnFoundation {
+    /// Pressure at `x` ahead of the lowest point, −b … a.
+    pub fn pressure(&self, x: Metre) -> Pascal {
+        let Self { radius, ahead, relaxed, relaxing, decay } = *self;
+        let delayed = x + decay - (ahead + decay) * (-(ahead - x) / decay).exp();
+        (relaxed * (ahead * ahead - x * x) + 2.0 * relaxing * decay * delayed) / (2.0 * radius)
+    }
+
+    /// Distance b that the contact reaches behind the lowest point, below a.
+    pub fn behind(&self) -> Metre {
+        let (mut least, mut most) = (0.0, self.ahead);
+        for _ in 0..100 {
+            let b = 0.5 * (least + most);
+            if self.pressure(-b) > 0.0 { least = b } else { most = b }
+        }
+        0.5 * (least + most)
+    }
+
+    /// Load per length, N/m.
+    pub fn load_per_length(&self) -> f64 {
+        integrate(-self.behind(), self.ahead, |x| self.pressure(x))
+    }
+
+    /// Drag per length, N/m.
+    pub fn drag_per_length(&self) -> f64 {
+        integrate(-self.behind(), self.ahead, |x| self.pressure(x) * x) / self.radius
+    }
+}
+
 /// Returns I₁(x)/I₀(x), by the continued fraction 1/(2/x + 1/(4/x + …)).
 fn ratio_i(x: f64) -> f64 {
     let terms = 40 + x as usize;
@@ -202,6 +257,24 @@ mod tests {
             assert!((over(&|_| 1.0) / 0.05 - 1.0).abs() < 1e-3, "{}", over(&|_| 1.0));
             assert!((over(&|x| x) / cylinder.drag_per_length() - 1.0).abs() < 2e-3);
         }
+    }
+
+    #[test]
+    fn a_foundation_loses_what_its_damper_dissipates() {
+        let foundation =
+            CylinderOnFoundation { radius: 2.0, ahead: 0.3, relaxed: 3.0, relaxing: 20.0, decay: 0.2 };
+        let b = foundation.behind();
+        assert!(foundation.pressure(-b).abs() < 1e-12 && 0.0 < b && b < 0.3);
+        // The damper bears s, and yields at the rate s/k₁τ. Behind the contact it relaxes against the spring of k₀, which
+        // loses what both still store.
+        let (spring, damper) = (
+            |x: f64| 3.0 * (0.09 - x * x) / 4.0,
+            |x: f64| foundation.pressure(x) - 3.0 * (0.09 - x * x) / 4.0,
+        );
+        let in_contact = integrate(-b, 0.3, |x| damper(x).powi(2) / (20.0 * 0.2));
+        let stored = 0.5 * (spring(-b).powi(2) / 3.0 + damper(-b).powi(2) / 20.0);
+        let drag = foundation.drag_per_length();
+        assert!(((in_contact + stored) / drag - 1.0).abs() < 1e-9, "{in_contact} {stored} {drag}");
     }
 
     #[test]

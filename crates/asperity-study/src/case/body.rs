@@ -16,6 +16,7 @@ use asperity_contact::each;
 use asperity_contact::material::{Coating, Material, NamedMaterial};
 use asperity_contact::temperature::Thermal;
 use asperity_contact::with::plasticity::Yielding;
+use asperity_contact::with::viscoelastic::Viscoelasticity;
 use asperity_contact::with::{
     BodyConstants, BodyLaw as _, BodyLaws, BodyProperties, BodyProperty as _, Listed as _,
 };
@@ -29,6 +30,9 @@ pub struct Body {
     /// Elastic constants of the body. Its hardness is in [`Body::hardness`].
     #[serde(flatten, serialize_with = "elastic")]
     pub material: Material,
+    /// Relaxation of each layer of the material, from the surface down; `None` for an elastic one.
+    #[serde(skip)]
+    pub layers: Vec<Option<Viscoelasticity>>,
     /// Largest pressure that the cells of the body can carry; infinite by default.
     pub hardness: Hardness,
     /// Plastic flow below the surface; elastic if absent.
@@ -98,11 +102,11 @@ pub(super) struct BodyKeys {
     hardness: Option<Hardness>,
     /// Elastic surface layer, see [below](#lowercoating-and-uppercoating).
     #[key(table, absent = "none")]
-    coating: Option<Coating>,
+    coating: Option<LayerKeys>,
     /// Several elastic layers in place of a `coating`, from the surface down, see
     /// [below](#lowercoating-and-uppercoating).
-    #[key(tables = Coating::read, default = Vec::new(), absent = "none")]
-    layers: Vec<Coating>,
+    #[key(tables = LayerKeys::read, default = Vec::new(), absent = "none")]
+    layers: Vec<LayerKeys>,
     /// The body below the layers; a rigid one takes neither `young` nor `poisson`.
     #[key(choice, default = Base::HalfSpace, example = "\"rigid\"")]
     base: Base,
@@ -149,6 +153,17 @@ pub(super) struct BodyKeys {
         exists = exists::DENSITY
     )]
     density: Option<f64>,
+}
+
+/// The keys of a layer.
+#[derive(Table, Debug, Clone, PartialEq)]
+#[table("lower.coating", "upper.coating", "lower.layers", "upper.layers")]
+pub(super) struct LayerKeys {
+    #[key(part)]
+    elastic: Coating,
+    /// Relaxation of the layer, see [viscoelastic layers](#viscoelastic-layers).
+    #[key(table, absent = "elastic")]
+    viscoelastic: Option<Viscoelasticity>,
 }
 
 /// The keys that only the upper body has.
@@ -253,8 +268,11 @@ impl BodyKeys {
             L::read(table.as_ref())?.on(one_hardness, table.as_ref())?.give(&mut laws);
         });
         // Checked above, key by key, so this cannot fail.
-        let layers = self.coating.map_or_else(|| self.layers.clone(), |coating| vec![coating]);
-        let material = Material::elastic(young, poisson)?.layered(layers);
+        let layers = self.coating.as_ref().map_or(&self.layers[..], std::slice::from_ref);
+        let material = Material::elastic(young, poisson)?;
+        let material = material.layered(layers.iter().map(|layer| layer.elastic).collect());
+        let relaxation = |layer: &LayerKeys| Some(layer.viscoelastic.clone()?.in_folder(folder));
+        let layers = layers.iter().map(relaxation).collect();
         let thermal = self.thermal(source, used)?;
         let conducts = named.filter(|_| used.conduction);
         let conductivity = match thermal {
@@ -263,6 +281,7 @@ impl BodyKeys {
         };
         Ok(Body {
             material,
+            layers,
             hardness,
             plasticity: self.plasticity.clone().map(Yielding::resolved),
             properties,
@@ -315,7 +334,37 @@ impl BodyKeys {
     }
 }
 
+/// A part of a body: one of its layers, or the body below them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Part<'a> {
+    /// Number of the layer, from 0 at the surface; `None` for the body below the layers.
+    pub(crate) layer: Option<usize>,
+    /// Its relaxed modulus.
+    pub(crate) young: Pascal,
+    pub(crate) poisson: f64,
+    /// Its relaxation; `None` if it is elastic.
+    pub(crate) viscoelastic: Option<&'a Viscoelasticity>,
+}
+
 impl Body {
+    /// Returns the parts of the body: its layers from the surface down, then the body below them.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = Part<'_>> {
+        let Material { young, poisson, ref layers, .. } = self.material;
+        let part = |(n, layer): (usize, &Coating)| Part {
+            layer: Some(n),
+            young: layer.young,
+            poisson: layer.poisson,
+            viscoelastic: self.layers.get(n).and_then(Option::as_ref),
+        };
+        let below = Part { layer: None, young, poisson, viscoelastic: self.properties.viscoelastic.as_ref() };
+        layers.iter().enumerate().map(part).chain([below])
+    }
+
+    /// Whether a part of the body is viscoelastic.
+    pub(crate) fn relaxes(&self) -> bool {
+        self.parts().any(|part| part.viscoelastic.is_some())
+    }
+
     /// Number of its given relaxation times, 0 if they are fitted; `None` if it is elastic.
     pub(crate) fn relaxation_terms(&self) -> Option<usize> {
         self.properties.viscoelastic.as_ref().map(|body| body.moduli.len())
@@ -351,21 +400,45 @@ fn key(name: &str) -> &'static Key {
 
 fn elastic<S: Serializer>(material: &Material, serializer: S) -> std::result::Result<S::Ok, S::Error> {
     #[derive(Serialize)]
-    struct Keys<'a> {
+    struct Keys {
         #[serde(serialize_with = "or_inf")]
         young: Pascal,
         poisson: f64,
-        #[serde(skip_serializing_if = "Option::is_none")]
-        coating: Option<&'a Coating>,
-        #[serde(skip_serializing_if = "<[Coating]>::is_empty")]
-        layers: &'a [Coating],
     }
-    let Material { young, poisson, ref layers, .. } = *material;
-    // A single layer is a coating.
-    let (coating, layers) = if let [coating] = layers.as_slice() {
-        (Some(coating), [].as_slice())
-    } else {
-        (None, layers.as_slice())
-    };
-    Keys { young, poisson, coating, layers }.serialize(serializer)
+    let Material { young, poisson, .. } = *material;
+    Keys { young, poisson }.serialize(serializer)
+}
+
+/// The keys of a body as a case file writes them.
+#[derive(Serialize)]
+pub(super) struct WrittenBody<'a> {
+    #[serde(flatten)]
+    body: &'a Body,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    coating: Option<WrittenLayer<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    layers: Vec<WrittenLayer<'a>>,
+}
+
+#[derive(Serialize)]
+struct WrittenLayer<'a> {
+    #[serde(flatten)]
+    elastic: &'a Coating,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    viscoelastic: Option<&'a Viscoelasticity>,
+}
+
+impl<'a> WrittenBody<'a> {
+    pub(super) fn new(body: &'a Body) -> Self {
+        let mut layers: Vec<_> = body
+            .material
+            .layers
+            .iter()
+            .zip(body.parts())
+            .map(|(elastic, part)| WrittenLayer { elastic, viscoelastic: part.viscoelastic })
+            .collect();
+        // A single layer is a coating.
+        let coating = if layers.len() == 1 { layers.pop() } else { None };
+        Self { body, coating, layers }
+    }
 }

@@ -178,7 +178,9 @@ impl<'a> Entry<'a> {
     pub(crate) fn table(self) -> Result<Table<'a>> {
         match self.value {
             DeValue::Table(entries) => {
-                Ok(Table { document: self.document, path: self.path, span: self.span, entries })
+                // That of an item of an array of tables is in brackets.
+                let path = self.path.replace(['[', ']'], "");
+                Ok(Table { document: self.document, path, span: self.span, entries })
             }
             _ => Err(self.wrong_type(&format!("a table [{}]", self.path))),
         }

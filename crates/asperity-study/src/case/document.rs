@@ -77,6 +77,11 @@ impl Document {
         self.spans.iter().map(|(key, span)| (key.as_str(), self.written(span.clone())))
     }
 
+    /// Whether the file has a key or a table of this dotted name.
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.spans.contains_key(key)
+    }
+
     pub(super) fn written(&self, span: Range<usize>) -> String {
         let text = self.text.get(span).unwrap_or_default();
         text.split_whitespace().collect::<Vec<_>>().join(" ")

@@ -30,6 +30,8 @@ use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 
+pub(crate) use self::body::Part;
+use self::body::WrittenBody;
 pub use self::body::{Body, Mount};
 pub use self::contact::{Contact, GridMatch};
 pub use self::course::Course;
@@ -64,6 +66,7 @@ pub struct Case {
     /// The title; by default the file name.
     pub title: String,
     /// The lower body.
+    #[serde(serialize_with = "with_layers")]
     pub lower: Body,
     /// The upper body.
     #[serde(serialize_with = "with_mount")]
@@ -130,7 +133,7 @@ impl Case {
 
     /// Whether a body is viscoelastic.
     pub(crate) fn relaxes(&self) -> bool {
-        [&self.lower, &self.upper].into_iter().any(|body| body.relaxation_terms().is_some())
+        [&self.lower, &self.upper].into_iter().any(Body::relaxes)
     }
 
     /// Whether each position of a pass needs the one before: of viscoelastic or lubricated bodies.
@@ -245,6 +248,15 @@ impl Case {
         })
     }
 
+    /// Returns the dotted key of the table of a part of the body `name`: of one of its layers, or of the body itself.
+    pub(crate) fn table_of(&self, name: &str, layer: Option<usize>) -> String {
+        match layer {
+            None => name.to_owned(),
+            Some(_) if self.document.has(&format!("{name}.coating")) => format!("{name}.coating"),
+            Some(n) => format!("{name}.layers.{n}"),
+        }
+    }
+
     /// Iterates over the files named in the case.
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
         [&self.lower, &self.upper].into_iter().flat_map(|body| {
@@ -256,8 +268,8 @@ impl Case {
                 Hardness::Map(HardnessMap::File { file, .. }) => Some(file),
                 Hardness::Map(HardnessMap::Given { .. }) | Hardness::Uniform(_) => None,
             };
-            let curve = body.properties.viscoelastic.as_ref().and_then(|body| body.file.as_ref());
-            surface.into_iter().chain(map).chain(curve)
+            let curves = body.parts().filter_map(|part| part.viscoelastic?.file.as_ref());
+            surface.into_iter().chain(map).chain(curves)
         })
     }
 }
@@ -267,12 +279,16 @@ pub(crate) fn topography_alone(text: &str, folder: &Path) -> Result<(TopographyS
     parse::topography_alone(text, folder)
 }
 
+fn with_layers<S: Serializer>(body: &Body, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    WrittenBody::new(body).serialize(serializer)
+}
+
 fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result<S::Ok, S::Error> {
     #[derive(Serialize)]
     struct Keys<'a> {
         #[serde(flatten)]
-        body: &'a Body,
+        body: WrittenBody<'a>,
         mount: Option<Mount>,
     }
-    Keys { body: upper, mount: upper.mount }.serialize(serializer)
+    Keys { body: WrittenBody::new(upper), mount: upper.mount }.serialize(serializer)
 }

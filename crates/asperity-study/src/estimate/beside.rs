@@ -2,7 +2,7 @@
 
 use super::plausible::{GivenValue, far, given};
 use super::{Estimate, STRENGTH};
-use crate::case::{Body, Case, Course, Hardness, Layer, Source, TopographySpec};
+use crate::case::{Body, Case, Course, Hardness, Layer, Part, Source, TopographySpec};
 use crate::prepare::Bodies;
 use asperity_base::beside::{Beside, Scale};
 use asperity_base::grid::Grid;
@@ -155,7 +155,13 @@ impl Scales<'_> {
                 Hardness::Uniform(hardness) => one(hardness),
                 Hardness::Map(_) => None,
             },
-            Scale::Young => one(body.material.young),
+            Scale::Young => {
+                let is_of = |part: &Part<'_>| {
+                    let table = case.table_of(if is_upper { "upper" } else { "lower" }, part.layer);
+                    path.strip_prefix(&table).is_some_and(|key| key.starts_with('.'))
+                };
+                one(body.parts().find(is_of)?.young)
+            }
             Scale::Friction => {
                 let law = case.friction.as_ref()?.law;
                 one((law.coefficient * self.largest_load()?).min(law.shear_strength * estimate.apparent_area))

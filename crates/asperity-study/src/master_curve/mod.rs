@@ -9,7 +9,7 @@ mod columns;
 mod head;
 mod titles;
 
-use crate::case::{Body, Case};
+use crate::case::{Body, Case, Part};
 use crate::io::{regular, sha256};
 use crate::surface_input::SurfaceInput;
 use asperity_base::error::Result;
@@ -35,7 +35,7 @@ pub struct MasterCurve {
 const MAX_BYTES: u64 = 16 << 20;
 const EXAMPLE: &str = "a line above the numbers names the columns with their units, for example `Frequency (Hz); E' (MPa); E'' (MPa)`";
 
-/// Reads the master curve of the body `name` of a case; `None` if it has none.
+/// Reads the master curves of the parts of the body `name` of a case; `None` of a part that has none.
 ///
 /// # Errors
 /// [`Error::Case`](asperity_base::Error::Case) at its key if the file cannot be read or is no master curve;
@@ -45,11 +45,13 @@ pub(super) fn of_body(
     name: &str,
     body: &Body,
     given: &SurfaceInput,
-) -> Result<Option<MasterCurve>> {
-    let Some(file) = body.properties.viscoelastic.as_ref().and_then(|body| body.file.as_ref()) else {
-        return Ok(None);
-    };
-    let key = format!("{name}.viscoelastic.file");
+) -> Result<Vec<Option<MasterCurve>>> {
+    body.parts().map(|part| of_part(case, name, part, given)).collect()
+}
+
+fn of_part(case: &Case, name: &str, part: Part<'_>, given: &SurfaceInput) -> Result<Option<MasterCurve>> {
+    let Some(file) = part.viscoelastic.and_then(|part| part.file.as_ref()) else { return Ok(None) };
+    let key = format!("{}.viscoelastic.file", case.table_of(name, part.layer));
     let content = regular::read(file, "a master curve", MAX_BYTES)
         .map_err(|source| case.error_at(&key, format!("{}: {source}", file.display()), None))?;
     let sha256 = sha256(&content);
@@ -57,7 +59,7 @@ pub(super) fn of_body(
     let (mut points, deformation) = read(&content).map_err(|Refusal { message, hint }| {
         case.error_at(&key, format!("{}: {message}", file.display()), hint.map(str::to_owned))
     })?;
-    let from_shear = (deformation == Deformation::Shear).then_some(2.0 * (1.0 + body.material.poisson));
+    let from_shear = (deformation == Deformation::Shear).then_some(2.0 * (1.0 + part.poisson));
     for point in &mut points {
         point.storage *= from_shear.unwrap_or(1.0);
         point.loss *= from_shear.unwrap_or(1.0);

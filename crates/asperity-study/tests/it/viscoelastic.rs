@@ -264,3 +264,74 @@ topography = { generate = "self-affine", hurst = 0.8, shortest = "80 um", sdq = 
     assert!((shear.0 / tension.0 - 1.0).abs() < 1e-5, "{shear:?} {tension:?}");
     assert!(!tension.1 && shear.1);
 }
+
+/// A ball that slides over a lower body with these keys.
+fn sliding_ball(lower: &str) -> String {
+    format!(
+        r#"
+contact = {{ load = "20 mN", boundary = "periodic" }}
+steady = {{ speed = "20 mm/s" }}
+[upper]
+young = "inf"
+poisson = 0.3
+topography = {{ form = "sphere", radius = "1 mm" }}
+[lower]
+topography = {{ form = "flat", shape = [48, 48], pitch = "20 um" }}
+{lower}
+"#
+    )
+}
+
+#[test]
+fn layers_that_relax_alike_are_the_body_and_on_steel_they_resist_less() {
+    let rubber = "young = \"1 MPa\"\npoisson = 0.45\nviscoelastic = { moduli = [\"9 MPa\", \"90 MPa\"], times = [\"10 ms\", \"0.2 ms\"] }\n";
+    let layer = |thickness: &str| format!("[[lower.layers]]\nthickness = \"{thickness}\"\n{rubber}");
+    let drag = |lower: &str| drag_of(&at_rest(&parsed(&sliding_ball(lower))).outcome);
+    let body = drag(rubber);
+    let alike = drag(&format!("{rubber}{}{}", layer("50 um"), layer("0.1 mm")));
+    assert!((alike / body - 1.0).abs() < 1e-9, "{alike} and {body}");
+    let on_steel = |thickness| drag(&format!("material = \"steel\"\nhardness = inf\n{}", layer(thickness)));
+    let [thin, thick] = [on_steel("50 um"), on_steel("5 mm")];
+    assert!(0.0 < thin && thin < 0.9 * body && (thick / body - 1.0).abs() < 1e-2, "{thin}, {thick}, {body}");
+    // A single layer is a coating.
+    let coating = format!("base = \"rigid\"\n[lower.coating]\nthickness = \"50 um\"\n{rubber}");
+    assert!((drag(&coating) / thin - 1.0).abs() < 1e-3);
+    let single = format!("base = \"rigid\"\n{}", layer("50 um"));
+    let [coating, single] =
+        [coating, single].map(|lower| serde_json::to_value(parsed(&sliding_ball(&lower))).unwrap());
+    assert_eq!(coating["lower"], single["lower"]);
+    assert_eq!(coating["lower"]["coating"]["viscoelastic"]["times"], serde_json::json!([1e-2, 2e-4]));
+}
+
+#[test]
+fn a_layer_has_its_own_master_curve_which_is_named_where_it_lies() {
+    let folder = tempfile::tempdir().unwrap();
+    let rubber = "young = \"1 MPa\"\npoisson = 0.45\nviscoelastic = { file = \"master.csv\" }\n";
+    let case = |lower: &str| parsed_in(&sliding_ball(lower), folder.path());
+    let layered = case(&format!(
+        "{rubber}[[lower.layers]]\nthickness = \"80 um\"\nyoung = \"1 MPa\"\npoisson = 0.45\n\
+         viscoelastic = {{ moduli = [\"9 MPa\"], times = [\"1 ms\"] }}\n[[lower.layers]]\nthickness = \"50 um\"\n{rubber}"
+    ));
+    let missing = asperity_study::bodies(&layered, SurfaceInput::default()).unwrap_err();
+    let asperity_base::Error::Case(missing) = missing else { panic!("{missing}") };
+    assert_eq!(missing.key, "lower.layers.1.viscoelastic.file");
+    // 1 MPa + 9 MPa z/(1 + z), z = iω · 1 ms, in shear.
+    let mut text = "f_Hz, G'_Pa, G''_Pa\n".to_owned();
+    for n in 0..=40 {
+        let frequency = 10f64.powf(-1.0 + 0.125 * f64::from(n));
+        let z = std::f64::consts::TAU * frequency * 1e-3;
+        let [storage, loss] = [1e6 + 9e6 * z * z / (1.0 + z * z), 9e6 * z / (1.0 + z * z)];
+        text += &format!("{frequency:e}, {:e}, {:e}\n", storage / 2.9, loss / 2.9);
+    }
+    fs::write(folder.path().join("master.csv"), text).unwrap();
+    let found = at_rest(&layered);
+    let told = |part: &str| {
+        let start = format!("the master curve of the {part} has the shear moduli");
+        found.warnings.iter().any(|warning| warning.starts_with(&start))
+    };
+    assert!(told("lower body") && told("2nd layer of the lower body"), "{:?}", found.warnings);
+    assert_eq!(layered.files().count(), 2);
+    // The fit to a single time is off by some per cent.
+    let [found, body] = [drag_of(&found.outcome), drag_of(&at_rest(&case(rubber)).outcome)];
+    assert!((found / body - 1.0).abs() < 0.05 && found != body, "{found} for {body}");
+}

@@ -185,6 +185,8 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 7] = [
             "asperity-report/src/figures/loading.rs",
             "asperity-report/src/words/captions.rs",
             "asperity-cli/src/example/kits.rs",
+            // A layer in Python.
+            "asperity/material.py",
             // The types that are made from its table.
             "asperity/keys.py",
         ],

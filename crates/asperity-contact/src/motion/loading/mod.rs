@@ -102,7 +102,7 @@ impl StagedLoading {
         params: Params,
     ) -> Result<Self> {
         stages.iter().filter_map(|stage| stage.cycles).try_for_each(|cycles| cycles.checked().map(|_| ()))?;
-        pair.check_creep()?;
+        pair.check_memory()?;
         let (operators, gap) = facing(&pair, boundary)?;
         let shape = pair.lower_grid().shape;
         let solver = SlipRegime::from(friction).solver(&pair, &operators, shape, params.device)?;
@@ -193,7 +193,7 @@ impl StagedLoading {
         if heats && cycles.any(|cycles| cycles.period.is_none()) {
             return Err(Error::Unsupported("a flash temperature in cycles needs the period of a cycle"));
         }
-        let remembers = self.pair.creep().is_some() || matches!(self.response, Response::Yielding(_));
+        let remembers = self.pair.relaxes() || matches!(self.response, Response::Yielding(_));
         if remembers && changes.jumps() {
             return Err(Error::Unsupported(
                 "cycles of bodies that creep or flow below their surfaces are not extrapolated",

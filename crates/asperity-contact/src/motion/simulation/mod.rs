@@ -86,7 +86,7 @@ impl Simulation {
         let positions = positions(&pair, boundary, &motion)?;
         let max_load: Vec<Newton> = positions.iter().map(|p| max_load(&pair, &motion, p)).collect();
         check_limit(motion.control, motion.load_control.plastic_limit(&max_load))?;
-        let distinct = if pair.creep().is_some() || pair.lubrication().is_some() {
+        let distinct = if pair.relaxes() || pair.lubrication().is_some() {
             positions.len()
         } else {
             let follows = pair.interface().follows_path();
@@ -94,10 +94,8 @@ impl Simulation {
         };
         let columns: Vec<usize> = positions[..distinct].iter().map(|p| p.columns).collect();
         // Viscoelastic bodies are displaced beyond the overlap, too.
-        let largest = pair.grid(match pair.creep() {
-            None => pair.lower.columns().min(pair.upper.columns()),
-            Some(_) => pair.lower.columns().max(pair.upper.columns()),
-        });
+        let [lower, upper] = [&pair.lower, &pair.upper].map(Body::columns);
+        let largest = pair.grid(if pair.relaxes() { lower.max(upper) } else { lower.min(upper) });
         let displaces = motion.slip(Stroke::Forth).displaces_normally(&pair);
         pair.interface().check_passes(motion.strategy != Strategy::Overlap, displaces, &params)?;
         if displaces {
@@ -113,7 +111,7 @@ impl Simulation {
         }
         let together = params.device == Device::Cpu
             && pair.interface().is_hard()
-            && pair.creep().is_none()
+            && !pair.relaxes()
             && pair.lubrication().is_none()
             && memory_together(&motion, params.method, pair.yields(), &columns, pair.lower.width()).is_some();
         Ok(Self {
@@ -492,7 +490,7 @@ impl Simulation {
             load: 0.0,
             together: None,
         };
-        let goes_on = self.pair.creep().is_some() && self.motion.apart().is_none();
+        let goes_on = self.pair.relaxes() && self.motion.apart().is_none();
         let last = goes_on.then(|| self.warm.last(&self.pair, &self.positions[..self.distinct])).flatten();
         Solver {
             last,

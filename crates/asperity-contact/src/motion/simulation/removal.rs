@@ -60,7 +60,7 @@ impl Simulation {
         if stable > 0.5 {
             return Ok(Some(PassRemoval { compliance_of_grid, stable, explicit: None }));
         }
-        let remembers = outcome.pair.creep().is_some() || outcome.pair.lubrication().is_some();
+        let remembers = outcome.pair.relaxes() || outcome.pair.lubrication().is_some();
         if remembers || outcome.taken.is_some() || self.volumes.is_some() {
             let source = Box::new(Error::Unsupported(FAST_REMOVAL));
             return Err(Error::AtPass { pass: self.passes_done + 1, source });

@@ -45,7 +45,7 @@ impl Simulation {
         // Plastic flow takes most of the time of a trial, so rough contacts would save nothing. Rough
         // contacts that depend on where the bodies come from may be in another state, and those of
         // viscoelastic bodies would be remembered.
-        let remembers = pair.creep().is_some() || pair.lubrication().is_some();
+        let remembers = pair.relaxes() || pair.lubrication().is_some();
         let exact = self.volumes.is_some() || !pair.interface().is_hard() || remembers;
         let roughest = if exact { self.params.tolerance } else { MAX_RESIDUAL };
         let guess = match self.warm.guess(self.motion.load_tolerance) {
@@ -107,9 +107,7 @@ impl Simulation {
     ) -> Result<Option<Pass>> {
         match &self.volumes {
             Some(volumes) => solver.solve_elasto_plastic(volumes, pair, control, &self.params).map(Some),
-            None if pair.creep().is_some() => {
-                solver.solve_creeping(pair, control, &self.params, earlier).map(Some)
-            }
+            None if pair.relaxes() => solver.solve_creeping(pair, control, &self.params, earlier).map(Some),
             None => match pair.lubrication() {
                 Some(oil) => solver.solve_lubricated(pair, oil, self.boundary, control).map(Some),
                 None => Ok(None),

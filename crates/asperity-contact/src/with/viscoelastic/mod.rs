@@ -1,4 +1,5 @@
-//! Viscoelastic bodies of a case: the tables `[lower.viscoelastic]`, `[upper.viscoelastic]` and `[steady]`.
+//! Viscoelastic bodies and layers of a case: the tables `[lower.viscoelastic]`, `[upper.viscoelastic]`, `viscoelastic` of a layer, and
+//! `[steady]`.
 //!
 //! The laws are in [`crate::viscoelastic`].
 
@@ -21,9 +22,17 @@ use asperity_base::table::{Bounds, Exists, Key, Kind, Source, Value, list, requi
 use asperity_base::units::Dimension;
 use asperity_derive::Table;
 
-/// Relaxation of a body, whose `young` is the relaxed modulus.
+/// Relaxation of a body, or of one of its layers, whose `young` is the relaxed modulus.
 #[derive(Table, Debug, Clone, PartialEq, Serialize)]
-#[table("lower.viscoelastic", "upper.viscoelastic", check = together)]
+#[table(
+    "lower.viscoelastic",
+    "upper.viscoelastic",
+    "lower.coating.viscoelastic",
+    "upper.coating.viscoelastic",
+    "lower.layers.viscoelastic",
+    "upper.layers.viscoelastic",
+    check = together
+)]
 #[non_exhaustive]
 pub struct Viscoelasticity {
     /// Moduli that relax, in tension as `young`, which is the modulus that remains.

@@ -100,12 +100,12 @@ pub fn in_time(increments: &[IncrementRecord]) -> Option<Answer> {
 const WLF: [f64; 2] = [40.0, 200.0];
 
 impl Viscoelasticity {
-    /// Returns a reason not to trust the shift of the body `name` at its `temperature`.
-    pub fn doubt(&self, name: &str, temperature: Option<Kelvin>) -> Option<String> {
+    /// Returns a reason not to trust the shift of a `part`, such as "lower body", at its `temperature`.
+    pub fn doubt(&self, part: &str, temperature: Option<Kelvin>) -> Option<String> {
         let above =
             self.above_infinite_times(temperature).filter(|above| !(WLF[0]..=WLF[1]).contains(above))?;
         Some(format!(
-            "the {name} body at {} is {} above Tᵣ − c₂: the shift of Williams, Landel and Ferry usually holds from 50 K to 150 K above \
+            "the {part} at {} is {} above Tᵣ − c₂: the shift of Williams, Landel and Ferry usually holds from 50 K to 150 K above \
              it, which is from the glass transition to 100 K more",
             format(temperature?, Dimension::Temperature),
             format(above, Dimension::TemperatureDifference)

@@ -21,6 +21,7 @@ use asperity_base::error::{Error, Result};
 use asperity_base::table;
 use asperity_contact::each;
 use asperity_contact::motion::Strategy;
+use asperity_contact::with::viscoelastic::Viscoelasticity;
 use asperity_contact::with::{
     self, BodyLaw, Capability, Circumstances, Listed, Slip, Surroundings, Timeless,
 };
@@ -86,6 +87,14 @@ fn refused<F>(rule: &table::Rule<F>, entry: &Entry<'_>) -> Error {
     entry.error(message, Some(rule.hint.to_owned()).filter(|hint| !hint.is_empty()))
 }
 
+/// Returns the entry of a dotted key in a table, if it is given.
+fn find<'a>(table: &Table<'a>, key: &str) -> Option<Entry<'a>> {
+    match key.split_once('.') {
+        None => table.get(key),
+        Some((first, rest)) => find(&table.table(first).ok()??, rest),
+    }
+}
+
 impl<'a> Tables<'a> {
     /// Returns an error if the case breaks one of these rules.
     fn check(&self, rules: &[&[Rule]]) -> Result<()> {
@@ -123,12 +132,6 @@ impl<'a> Tables<'a> {
 
     /// Returns the entry of a dotted key, if it is given.
     fn at(&self, key: &str) -> Option<Entry<'a>> {
-        fn find<'a>(table: &Table<'a>, key: &str) -> Option<Entry<'a>> {
-            match key.split_once('.') {
-                None => table.get(key),
-                Some((first, rest)) => find(&table.table(first).ok()??, rest),
-            }
-        }
         find(self.root, key)
     }
 
@@ -267,15 +270,29 @@ impl<'a> Tables<'a> {
         self.case.yields()
     }
 
-    /// Returns the table of a viscoelastic body.
+    /// Returns the table of a viscoelastic body or layer.
     fn viscoelastic(&self) -> Option<Entry<'a>> {
-        self.of_body("viscoelastic", |body| body.properties.viscoelastic.is_some())
+        self.of_part("viscoelastic", |_| true)
     }
 
-    /// Returns the entry by which the relaxation of a body depends on its temperature.
+    /// Returns the entry by which the relaxation of a body or layer depends on its temperature.
     fn shifted(&self) -> Option<Entry<'a>> {
-        self.of_body("viscoelastic.wlf_c1", |body| {
-            body.properties.viscoelastic.as_ref().is_some_and(|body| body.needs_temperature())
+        self.of_part("viscoelastic.wlf_c1", Viscoelasticity::needs_temperature)
+    }
+
+    /// Returns the entry of a key in the first layer or body that relaxes so.
+    fn of_part(&self, key: &str, is: impl Fn(&Viscoelasticity) -> bool) -> Option<Entry<'a>> {
+        let bodies = [("lower", &self.case.lower), ("upper", &self.case.upper)];
+        bodies.into_iter().find_map(|(name, body)| {
+            let mut relaxing = body.parts().filter(|part| part.viscoelastic.is_some_and(&is));
+            let table = match relaxing.next()?.layer {
+                None => self.at(name)?.table().ok()?,
+                Some(n) => match self.at(&format!("{name}.coating")) {
+                    Some(coating) => coating.table().ok()?,
+                    None => self.at(&format!("{name}.layers"))?.tables().ok()?.into_iter().nth(n)?,
+                },
+            };
+            find(&table, key)
         })
     }
 

@@ -3,7 +3,7 @@
 use super::super::{Case, StageSpec};
 use super::Rule;
 use super::device::ON_PROCESSOR;
-use super::examples::{AT_ANY_SPEED, CHANGES, JUMPS, MOVES, ON_DEVICE, RUBS, SLIDES, STEADY};
+use super::examples::{AT_ANY_SPEED, CHANGES, COATED, JUMPS, MOVES, ON_DEVICE, RUBS, SLIDES, STEADY};
 
 /// The lower body relaxes.
 const RELAXES: &str = r#"lower.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"] }"#;
@@ -121,21 +121,58 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "[lower.viscoelastic], [upper.viscoelastic]",
-        with: "a hardness, layers or `plasticity` of either body",
+        with: "a hardness or `plasticity` of either body",
         message: "viscoelastic bodies do not support '{key}'",
         hint: "the contact is that of elastic and viscoelastic bodies; beside a `material` with a hardness give `hardness = inf`",
         at: "lower.hardness",
         example: &[RELAXES, STEADY, r#"lower.hardness = "3 GPa""#],
         broken: |tables| {
             tables.viscoelastic()?;
-            let keys = ["coating", "layers", "plasticity"];
             ["lower", "upper"].iter().find_map(|body| {
                 let of = if *body == "lower" { &tables.case.lower } else { &tables.case.upper };
                 let hardness =
                     || ["hardness", "material"].iter().find_map(|key| tables.at(&format!("{body}.{key}")));
                 let yields = of.hardness.yields().then(hardness).flatten();
-                yields.or_else(|| keys.iter().find_map(|key| tables.at(&format!("{body}.{key}"))))
+                yields.or_else(|| tables.at(&format!("{body}.plasticity")))
             })
+        },
+    },
+    Rule {
+        this: "[lower.viscoelastic], [upper.viscoelastic]",
+        with: "`young = inf` or `base = \"rigid\"` of this body",
+        message: "a rigid body does not relax",
+        hint: "give the relaxed modulus `young`, or `viscoelastic` in the table of a layer",
+        at: "lower.viscoelastic",
+        example: &[STEADY, RELAXES, r#"lower.young = inf"#],
+        broken: |tables| {
+            tables.of_body("viscoelastic", |body| {
+                body.properties.viscoelastic.is_some() && body.material.young.is_infinite()
+            })
+        },
+    },
+    Rule {
+        this: "layers of viscoelastic bodies, or viscoelastic layers",
+        with: "[motion], [sliding], [[history]]",
+        message: "viscoelastic bodies with layers slide steadily, and do not support [{key}]: each wave on layers has its own retardation times",
+        hint: "give the `speed` or the `speeds` in [steady], or leave the layers out",
+        at: "motion",
+        example: &[RELAXES, COATED, AT_ANY_SPEED],
+        broken: |tables| {
+            tables.viscoelastic().filter(|_| tables.case.is_coated())?;
+            ["motion", "sliding", "history"].iter().find_map(|table| tables.at(table))
+        },
+    },
+    Rule {
+        this: "[steady] of bodies with layers",
+        with: "a boundary that is not `\"periodic\"`",
+        message: "steady sliding of bodies with layers needs a boundary that is periodic along both axes",
+        hint: "set `boundary = \"periodic\"` in [contact]: layers are solved wave by wave, each at its own frequency",
+        at: "contact",
+        example: &[RELAXES, COATED, STEADY],
+        broken: |tables| {
+            tables.case.steady.as_ref().filter(|_| tables.case.is_coated())?;
+            let is_periodic = tables.case.contact.boundary.leaves_mean_free();
+            tables.at("contact.boundary").or(tables.at("contact")).filter(|_| !is_periodic)
         },
     },
     Rule {

@@ -10,13 +10,12 @@ pub(crate) mod tables;
 
 use std::sync::LazyLock;
 
-use super::body::{BodyKeys, UpperKeys};
+use super::body::{BodyKeys, LayerKeys, UpperKeys};
 use super::root::Root;
 use super::{Contact, FrictionSpec, HardnessMap, MotionSpec, StageSpec, SubsurfaceSpec, TopographySpec};
 pub use asperity_base::table::{Bounds, Exists, Fallback, Key, Kind, Section};
 use asperity_base::table::{Part as _, Table as _};
 use asperity_contact::each;
-use asperity_contact::material::Coating;
 use asperity_contact::temperature::Temperature;
 use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
 use asperity_contact::with::viscoelastic::Steady;
@@ -63,7 +62,7 @@ fn of_every_case() -> Vec<Section> {
     [
         body,
         UpperKeys::sections(),
-        Coating::sections(),
+        LayerKeys::sections(),
         Contact::sections(),
         of_interfaces,
         MotionSpec::sections(),
@@ -117,7 +116,6 @@ mod tests {
 
     use asperity_base::error::Result;
     use asperity_base::table::{Fallback, Key, Part, Section, Source, Table};
-    use asperity_contact::material::Coating;
     use asperity_contact::motion::Acceleration;
     use asperity_contact::temperature::Temperature;
     use asperity_contact::with::adhesion::Attraction;
@@ -130,7 +128,7 @@ mod tests {
     use super::super::cursor::Table as Written;
     use super::super::document::Document;
     use super::sweep::Ends;
-    use super::{BodyKeys, HardnessMap, TopographySpec, UpperKeys};
+    use super::{BodyKeys, HardnessMap, LayerKeys, TopographySpec, UpperKeys};
     use crate::case::{Contact, FrictionSpec, MotionSpec, Output, SlidingSpec, StageSpec, SubsurfaceSpec};
 
     /// Reads a table of this dotted name and of these sections, once for each choice, with the examples of
@@ -240,7 +238,7 @@ mod tests {
         check::<Attraction>("");
         check::<Lubricant>("viscosity = 0.04\npressure_viscosity = 2e-8\nspeed = 1");
         check::<SubsurfaceSpec>("");
-        check::<Coating>("young = 1e9\npoisson = 0.3");
+        check::<LayerKeys>("young = 1e9\npoisson = 0.3");
         check::<Viscoelasticity>("moduli = [1e6]\ntimes = [1]");
         check::<Steady>("speed = 1");
         check::<Contact>("load = 1");
@@ -263,7 +261,7 @@ mod tests {
         check_table::<Output>("");
         check_table::<Acceleration>("");
         check_table::<Temperature>("bulk = 300");
-        check_table::<Coating>("thickness = 1\nmaterial = \"dlc\"");
+        check_table::<LayerKeys>("thickness = 1\nmaterial = \"dlc\"");
         check_table::<Steady>("speed = 1");
         check_table::<PlasticRegion>("depth = 1\nlayers = 2");
         check_table::<Yielding>("yield_stress = 1e9\nkinematic = 1e9");

@@ -71,7 +71,7 @@ const CLASSES: &[Class] = &[
         "Viscoelastic",
         &["lower.viscoelastic"],
         &[],
-        "Keys of ``viscoelastic`` of a body: its relaxation. Either `moduli` and `times`, or `file` is given.",
+        "Keys of ``viscoelastic`` of a body or a layer: its relaxation. Either `moduli` and `times`, or `file` is given.",
     ),
     (
         "FatigueLimits",
