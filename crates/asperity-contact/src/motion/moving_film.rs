@@ -1,9 +1,11 @@
 //! A film between two bodies that move.
 
+use std::cmp::Ordering;
+
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, flat};
 use crate::lubrication::{Film, FilmParams, FilmProblem, FilmSolution, Lubrication, OilStep, solve_film};
-use crate::motion::body::State;
+use crate::motion::body::{Body, State};
 use crate::motion::kinematics::{Motion, Strategy};
 use crate::motion::pair::Pair;
 use crate::motion::path::{Position, Stroke};
@@ -22,7 +24,7 @@ const APPROACH: &str = "oil_approach";
 /// Mean speed of both surfaces along x in the frame of the film; NaN if it is not known.
 ///
 /// In an overlap it is the frame of the shorter body, in which the ends of the contact stay where they are as long as the
-/// bodies overlap as far as they can. It is that of the upper body if both are as long.
+/// bodies overlap as far as they can. It is that of the higher one, such as a ball, if both are as long.
 pub(super) fn mean_speed(motion: &Motion, pair: &Pair, stroke: Stroke) -> MetrePerSecond {
     let forth = match motion.strategy {
         Strategy::Shift { speed_lower, speed_upper } => 0.5 * (speed_lower + speed_upper),
@@ -35,7 +37,17 @@ pub(super) fn mean_speed(motion: &Motion, pair: &Pair, stroke: Stroke) -> MetreP
 }
 
 fn stays_on_lower(pair: &Pair) -> bool {
-    pair.lower.columns() < pair.upper.columns()
+    let height = |body: &Body| {
+        let range = |[least, most]: [f64; 2], z: &f64| [least.min(*z), most.max(*z)];
+        let [least, most] = body.heights.iter().fold([f64::INFINITY, f64::NEG_INFINITY], range);
+        most - least
+    };
+    let [lower, upper] = [&pair.lower, &pair.upper];
+    match lower.columns().cmp(&upper.columns()) {
+        Ordering::Less => true,
+        Ordering::Equal => height(lower) > height(upper),
+        Ordering::Greater => false,
+    }
 }
 
 /// Where the columns of a film lie. They are counted from its inlet.
