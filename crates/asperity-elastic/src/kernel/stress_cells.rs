@@ -1,7 +1,7 @@
 //! Stress in layers under a uniformly loaded cell.
 
 use crate::kernel::cell::{far_points, gauss_points};
-use crate::kernel::layering::{Remainder, Transform};
+use crate::kernel::remainder::{Remainder, Transform};
 use crate::kernel::{Stack, Traction, WaveStress, cell_stress};
 use crate::stress::{Component, Stress};
 use crate::units::Metre;

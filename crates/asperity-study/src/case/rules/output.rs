@@ -1,5 +1,6 @@
 //! Rules of layers, and of the stress below the surface.
 
+use super::super::Side;
 use super::Rule;
 use super::examples::{COATED, LINE};
 
@@ -14,12 +15,19 @@ pub(super) const RULES: &[Rule] = &[
         broken: |tables| tables.at("subsurface.step").filter(|_| tables.case.motion.is_none()),
     },
     Rule {
-        this: "a coating, layers",
+        this: "[subsurface] of a body with layers",
         with: "a boundary periodic along one axis only",
-        message: "layers do not support a boundary that is periodic along one axis only",
-        hint: "use \"free\" or \"periodic\", or leave the layers out",
-        at: "contact.boundary",
-        example: &[COATED, LINE],
-        broken: |tables| tables.line().filter(|_| tables.case.is_coated()),
+        message: "the stress in layers is not known under a boundary that is periodic along one axis only",
+        hint: "use \"free\" or \"periodic\", or leave [subsurface] out",
+        at: "subsurface",
+        example: &[COATED, LINE, r#"subsurface = { to = "20 um" }"#],
+        broken: |tables| {
+            let spec = tables.case.subsurface.as_ref()?;
+            let body = match spec.body {
+                Side::Lower => &tables.case.lower,
+                Side::Upper => &tables.case.upper,
+            };
+            tables.line().filter(|_| body.material.is_layered())
+        },
     },
 ];
