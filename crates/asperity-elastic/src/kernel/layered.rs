@@ -282,7 +282,8 @@ impl BelowSurface {
         use Transform::{Cosine, Sine};
         let depth = self.depth;
         let rest = |q: f64| Self::rest(stack, depth, q);
-        let strips = Strips::new(rest, [Cosine, Cosine, Sine], self.images, depth, line.datum);
+        let transforms = [Cosine, Cosine, Sine];
+        let strips = Strips::new(rest, transforms, self.images, [depth, line.datum], Metre::INFINITY);
         let odd = [[false; 2], [true; 2], [false; 2], [true, false], [false, true]];
         SmoothLine::new(
             line,
@@ -290,7 +291,7 @@ impl BelowSurface {
             odd,
             move |at, half| self.coefficients(at, half),
             move |x, half| {
-                let [along, across, coupling] = strips.displacement(x, half);
+                let [along, across, coupling] = strips.under_strip(x, half);
                 [along, 0.0, across, coupling, 0.0]
             },
         )

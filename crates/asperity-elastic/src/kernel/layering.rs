@@ -72,13 +72,14 @@ impl Layering {
     ) -> SmoothLine<1> {
         let below = self.below(&harmonics);
         let rest = |q: f64| [self.rest(&harmonics, q)];
-        let strips = Strips::new(rest, [Transform::Cosine], [below.image], self.depth, line.datum);
+        let scales = [self.depth, line.datum];
+        let strips = Strips::new(rest, [Transform::Cosine], [below.image], scales, Metre::INFINITY);
         SmoothLine::new(
             line,
             pitch,
             [[false; 2]],
             move |at, half| below.displacement(at, half),
-            move |x, half| strips.displacement(x, half),
+            move |x, half| strips.under_strip(x, half),
         )
     }
 

@@ -25,5 +25,5 @@ pub use line::Line;
 pub use normal::{influence_matrix, influence_table, normal_displacement, normal_displacements_across};
 pub use response::{CoupledInfluence, CoupledResponse, Influence, Response, SharedResponse};
 pub use stack::{Stack, Wave, WaveStress, potential_compliance};
-pub use stress_cells::LayerCells;
+pub use stress_cells::{LayerCells, LayerStrip};
 pub use subsurface::{Traction, cell_stress, harmonic_stress, stress_table};

@@ -153,9 +153,10 @@ impl<const N: usize> SmoothLine<N> {
     }
 }
 
-/// Displacements under endless strips along y of waves of one direction, whose harmonics are potentials at a depth d and remainders.
+/// Displacements or stresses under endless strips, the sums of waves of one direction. Their harmonics are potentials at a depth d
+/// and remainders.
 ///
-/// A line load displaces by ∫ R(q) cos qx dq/π, or sin qx if the displacement is odd, and by the potentials
+/// A line load has ∫ R(q) cos qx dq/π, or sin qx if the displacement is odd, and by the potentials
 /// −2 ln(√(x² + d²)/r₀), or 2 atan(x/d). The logarithm is 0 at the datum r₀.
 pub(super) struct Strips<const N: usize> {
     table: Remainder<N>,
@@ -166,21 +167,21 @@ pub(super) struct Strips<const N: usize> {
 }
 
 impl<const N: usize> Strips<N> {
-    /// Creates them from the remainders R(q) of each displacement, [`Transform::Cosine`] or [`Transform::Sine`], and from the
-    /// amplitudes of the `images`, the potentials at the `depth`.
+    /// Creates them from the remainders R(q), each with [`Transform::Cosine`] or [`Transform::Sine`], and from the amplitudes of the
+    /// `images`, the potentials at the `depth`, for distances up to `reach`.
     pub(super) fn new(
         rest: impl Fn(f64) -> [f64; N] + Sync,
         transforms: [Transform; N],
         images: [f64; N],
-        depth: Metre,
-        datum: Metre,
+        [depth, datum]: [Metre; 2],
+        reach: Metre,
     ) -> Self {
-        let table = Remainder::new(rest, transforms, depth, Metre::INFINITY);
+        let table = Remainder::new(rest, transforms, depth, reach);
         Self { table, transforms, images, datum, nodes: gauss_legendre(16) }
     }
 
-    /// Returns the displacements at the distance `x` from the centre of a strip of this half-width.
-    pub(super) fn displacement(&self, x: Metre, half: Metre) -> [f64; N] {
+    /// Returns the values at the distance `x` from the centre of a strip of this half-width.
+    pub(super) fn under_strip(&self, x: Metre, half: Metre) -> [f64; N] {
         let depth = self.table.depth;
         if x.hypot(depth) > 2.0 * half {
             let mut sums = [0.0; N];
@@ -195,7 +196,7 @@ impl<const N: usize> Strips<N> {
         std::array::from_fn(|n| right[n] - left[n])
     }
 
-    /// Returns the displacements at the distance `x` from a line load.
+    /// Returns the values at the distance `x` from a line load.
     fn under_line(&self, x: Metre) -> [f64; N] {
         let depth = self.table.depth;
         let table = self.table.at(x.abs());
