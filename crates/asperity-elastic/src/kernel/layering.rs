@@ -48,8 +48,8 @@ impl Layering {
         })
     }
 
-    /// Returns the displacement as [`Layering::influence`], under each cell of a `line`. See [`Line`]: the uniform part
-    /// of the long waves is 0 at the datum.
+    /// Returns the displacement as [`Layering::influence`], under each cell of a `line`. See [`Line`]: its uniform part is 0 at the
+    /// datum, or relative to a body that does not give way to long waves.
     ///
     /// The error is below 1e-10 of the displacement of a cell under its own pressure, on these bodies or on the half-space of
     /// short waves, whichever is larger.
@@ -74,6 +74,7 @@ impl Layering {
         let rest = |q: f64| [self.rest(&harmonics, q)];
         let scales = [self.depth, line.datum];
         let strips = Strips::new(rest, [Transform::Cosine], [below.image], scales, Metre::INFINITY);
+        let strips = if self.long > 0.0 { strips.relative_to_datum() } else { strips };
         SmoothLine::new(
             line,
             pitch,

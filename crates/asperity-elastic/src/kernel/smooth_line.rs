@@ -83,14 +83,14 @@ impl<const N: usize> SmoothLine<N> {
     /// Returns the displacements at the distance s across the line, at t along it.
     pub(super) fn displacement(&self, [s, t]: [Metre; 2]) -> [f64; N] {
         let Self { period, half: [a, b], parts, .. } = *self;
-        let width = parts as f64 * a;
-        if self.is_far(s, width) {
-            return (self.strip)(s, width).map(|value| 2.0 * b / period * value);
+        let whole = parts as f64 * a;
+        if self.is_far(s, whole) {
+            return (self.strip)(s, whole).map(|value| 2.0 * b / period * value);
         }
         let t = t - period * (t / period).round();
         let mut sums = [0.0; N];
         for part in 0..parts {
-            let values = self.of_part([s + (2 * part + 1) as f64 * a - width, t]);
+            let values = self.of_part([s + (2 * part + 1) as f64 * a - whole, t]);
             sums = std::array::from_fn(|n| sums[n] + values[n]);
         }
         sums
@@ -118,7 +118,11 @@ impl<const N: usize> SmoothLine<N> {
         );
         std::array::from_fn(|n| {
             let [across, along] = self.odd[n];
-            let sign = if across { s.signum() } else { 1.0 };
+            let sign = match across {
+                true if s == 0.0 => 0.0,
+                true => s.signum(),
+                false => 1.0,
+            };
             let along = if along { ratio } else { 1.0 };
             nearest.iter().map(|values| values[n]).sum::<f64>() + sign * along * others[n]
         })
@@ -156,13 +160,14 @@ impl<const N: usize> SmoothLine<N> {
 /// Displacements or stresses under endless strips, the sums of waves of one direction. Their harmonics are potentials at a depth d
 /// and remainders.
 ///
-/// A line load has ∫ R(q) cos qx dq/π, or sin qx if the displacement is odd, and by the potentials
-/// −2 ln(√(x² + d²)/r₀), or 2 atan(x/d). The logarithm is 0 at the datum r₀.
+/// A line load has ∫ R(q) cos qx dq/π, or sin qx of odd ones, and the potentials −2 ln(√(x² + d²)/r₀), or 2 atan(x/d).
 pub(super) struct Strips<const N: usize> {
     table: Remainder<N>,
     transforms: [Transform; N],
     images: [f64; N],
     datum: Metre,
+    /// Uniform displacements that are taken off.
+    offset: [f64; N],
     nodes: Vec<(f64, f64)>,
 }
 
@@ -177,7 +182,17 @@ impl<const N: usize> Strips<N> {
         reach: Metre,
     ) -> Self {
         let table = Remainder::new(rest, transforms, depth, reach);
-        Self { table, transforms, images, datum, nodes: gauss_legendre(16) }
+        Self { table, transforms, images, datum, offset: [0.0; N], nodes: gauss_legendre(16) }
+    }
+
+    /// Makes the even ones 0 at the datum r₀.
+    pub(super) fn relative_to_datum(mut self) -> Self {
+        let there = self.under_line(self.datum);
+        self.offset = std::array::from_fn(|n| match self.transforms[n] {
+            Transform::Sine => 0.0,
+            _ => there[n],
+        });
+        self
     }
 
     /// Returns the values at the distance `x` from the centre of a strip of this half-width.
@@ -203,7 +218,7 @@ impl<const N: usize> Strips<N> {
         let (even, odd) = (-2.0 * (x.hypot(depth) / self.datum).ln(), 2.0 * (x.abs() / depth).atan());
         std::array::from_fn(|n| match self.transforms[n] {
             Transform::Sine => x.signum() * (table[n] + self.images[n] * odd),
-            _ => table[n] + self.images[n] * even,
+            _ => table[n] + self.images[n] * even - self.offset[n],
         })
     }
 }
