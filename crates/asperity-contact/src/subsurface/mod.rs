@@ -36,11 +36,11 @@ pub use response::StressAtDepth;
 pub use survey::Survey;
 
 use asperity_transforms::num_complex::Complex64;
-use ndarray::{Array1, Array2, Axis, s};
+use ndarray::{Array1, Array2, ArrayView1, Axis, s};
 
 use crate::grid::{Field, Grid};
 use crate::kernel::subsurface::{stress_lines, strip_stress};
-use crate::kernel::{LayerCells, Stack, Traction, WaveStress, harmonic_stress, stress_table};
+use crate::kernel::{LayerCells, LayerStrip, Stack, Traction, WaveStress, harmonic_stress, stress_table};
 use crate::math::{RealFft2, fft::angular_frequency, parallel};
 use crate::operator::Boundary;
 use crate::stress::{Component, Stress};
@@ -128,11 +128,7 @@ impl Subsurface {
     }
 
     /// Gives the body layers.
-    ///
-    /// # Panics
-    /// If the boundary is periodic along one axis only.
     pub fn with_layers(self, stack: Stack) -> Self {
-        assert!(self.boundary.single_period().is_none(), "no line of cells on layers");
         Self { stack: Some(stack), ..self }
     }
 
@@ -183,14 +179,7 @@ impl Subsurface {
 
     fn inside(&self, stack: &Stack, layer: usize, depth: Metre) -> Inside {
         if !self.boundary.leaves_mean_free() {
-            let Grid { shape, pitch } = self.grid;
-            let [x, y] = self.grid.extent();
-            let cells = LayerCells::new(stack, layer, depth, pitch, x.hypot(y));
-            let rows = parallel::tasks(0..shape[0], |i| {
-                let at = |j: usize| cells.at([i as f64 * pitch[0], j as f64 * pitch[1]]);
-                (0..shape[1]).map(at).collect::<Vec<_>>()
-            });
-            return Inside::Cells(Array2::from_shape_fn(shape, |(i, j)| rows[i][j]));
+            return self.inside_cells(stack, layer, depth);
         }
         let [nx, ny] = self.fft.shape();
         Inside::Waves(Array2::from_shape_fn([nx / 2 + 1, ny / 2 + 1], |(k, l)| {
@@ -201,6 +190,30 @@ impl Subsurface {
             ));
             stack.stress(q, layer, depth)
         }))
+    }
+
+    fn inside_cells(&self, stack: &Stack, layer: usize, depth: Metre) -> Inside {
+        let Grid { shape, pitch } = self.grid;
+        let line =
+            self.boundary.single_period().map(|axis| Repeated { axis, periods: PERIODS, grid: &self.grid });
+        let (axis, along) = line.as_ref().map_or((1, shape[1]), |line| (line.axis, line.reach() + 1));
+        let (across, width) = (shape[1 - axis], shape[1 - axis] as f64 * pitch[1 - axis]);
+        let cells = LayerCells::new(stack, layer, depth, pitch, width.hypot(along as f64 * pitch[axis]));
+        let line = line.map(|line| (line, LayerStrip::new(stack, layer, depth, pitch, axis, width)));
+        let place = |i: usize, j: usize| if axis == 1 { [i, j] } else { [j, i] };
+        let rows = parallel::tasks(0..across, |i| {
+            let at = |j: usize| cells.at([0, 1].map(|axis| place(i, j)[axis] as f64 * pitch[axis]));
+            let values: Vec<_> = (0..along).map(at).collect();
+            match &line {
+                None => values,
+                Some((line, strip)) => line.folded_stresses(&values, strip.at(i as f64 * pitch[1 - axis])),
+            }
+        });
+        let cell = |(i, j)| {
+            let [across, along] = place(i, j);
+            rows[across][along]
+        };
+        Inside::Cells { surface: cells.surface(), cells: Array2::from_shape_fn(shape, cell) }
     }
 
     fn component(&self, component: Component, depth: Metre, inside: Option<&Inside>) -> Field {
@@ -238,19 +251,32 @@ impl Subsurface {
             let mut influence = Field::zeros(shape);
             for traction in pair.into_iter().flatten() {
                 let Grid { shape: offsets, pitch } = self.grid;
+                let odd = traction.odd(component);
+                let (poisson, cells) = match inside {
+                    Some(Inside::Cells { surface, cells }) => (*surface, Some(cells)),
+                    _ => (Some(self.poisson), None),
+                };
+                let in_layers = cells.map(|cells| {
+                    cells.mapv(|stresses| stresses[traction as usize].components()[component as usize])
+                });
                 match self.boundary.single_period() {
                     Some(axis) => {
                         let line = Repeated { axis, periods: PERIODS, grid: &self.grid };
-                        line.add(&mut influence, depth, self.poisson, component, traction);
+                        if let Some(poisson) = poisson {
+                            line.add(&mut influence, depth, poisson, component, traction);
+                        }
+                        for (i, values) in
+                            in_layers.iter().flat_map(|table| table.axis_iter(Axis(1 - axis))).enumerate()
+                        {
+                            line.add_line(&mut influence, i, &values, odd);
+                        }
                     }
                     None => {
-                        let table = match inside {
-                            Some(Inside::Cells(cells)) => cells.mapv(|stresses| {
-                                stresses[traction as usize].components()[component as usize]
-                            }),
-                            _ => stress_table(offsets, depth, pitch, self.poisson, component, traction),
-                        };
-                        add_folded(&mut influence, &table, traction.odd(component));
+                        let half_space =
+                            poisson.map(|nu| stress_table(offsets, depth, pitch, nu, component, traction));
+                        for table in half_space.iter().chain(&in_layers) {
+                            add_folded(&mut influence, table, odd);
+                        }
                     }
                 }
             }
@@ -282,8 +308,9 @@ impl Subsurface {
 enum Inside {
     /// Stress of each wave of the grid, for wavenumbers ≥ 0.
     Waves(Array2<WaveStress>),
-    /// At the offsets ≥ 0 from a cell, per unit of each traction.
-    Cells(Array2<[Stress; 3]>),
+    /// At the offsets ≥ 0 from a cell, per unit of each traction, minus that of a half-space with Poisson's ratio `surface`. Along the
+    /// axis of a line of cells that of all of them.
+    Cells { surface: Option<f64>, cells: Array2<[Stress; 3]> },
 }
 
 /// Periods of a line of cells that are summed one by one, odd.
@@ -310,39 +337,67 @@ impl Repeated<'_> {
         traction: Traction,
     ) {
         let Grid { shape, pitch } = *self.grid;
-        let (axis, n) = (self.axis, shape[self.axis]);
-        let odd = traction.odd(component);
-        let [across, along] = [1 - axis, axis].map(|axis| if odd[axis] { -1.0 } else { 1.0 });
-        let reach = self.periods * n / 2;
-        let strip = strip_stress(shape[1 - axis], axis, depth, pitch, poisson, component, traction);
+        let (axis, odd) = (self.axis, traction.odd(component));
+        let lines = shape[1 - axis];
+        let strip = strip_stress(lines, axis, depth, pitch, poisson, component, traction);
+        let add = |i: usize, values: &[f64]| {
+            let line = self.folded(values.iter().copied(), odd[axis], strip[i]);
+            self.add_line(influence, i, &line.view(), odd);
+        };
+        stress_lines([lines, self.reach() + 1], axis, depth, pitch, poisson, component, traction, add);
+    }
+
+    /// Number of cells on either side that are summed one by one.
+    fn reach(&self) -> usize {
+        self.periods * self.grid.shape[self.axis] / 2
+    }
+
+    /// Sums the `values` under a cell at the offsets from 0 along the line over all its images. Those that are not summed one by one
+    /// are an endless strip less what is.
+    fn folded(&self, values: impl Iterator<Item = f64>, odd: bool, strip: f64) -> Array1<f64> {
+        let n = self.grid.shape[self.axis];
+        let sign = if odd { -1.0 } else { 1.0 };
         // Each offset along the axis then has as many images: of an even number the last ones count half.
         let last = if (self.periods * n).is_multiple_of(2) { 0.5 } else { 1.0 };
-        let rows = influence.shape()[1 - axis];
-        let add = |i: usize, values: &[f64]| {
-            let mut line = Array1::<f64>::zeros(n);
-            let mut sum = 0.0;
-            for (j, value) in values.iter().enumerate() {
-                let value = if j == reach { last * value } else { *value };
-                line[j % n] += value;
-                sum += value;
-                if j > 0 {
-                    line[(n - j % n) % n] += along * value;
-                    sum += along * value;
-                }
+        let mut line = Array1::<f64>::zeros(n);
+        let mut sum = 0.0;
+        for (j, value) in values.enumerate() {
+            let value = if j == self.reach() { last * value } else { value };
+            line[j % n] += value;
+            sum += value;
+            if j > 0 {
+                line[(n - j % n) % n] += sign * value;
+                sum += sign * value;
             }
-            // Components that are odd along a strip vanish.
-            if along > 0.0 {
-                line += (strip[i] - sum) / n as f64;
-            }
-            let mut add = |i: usize, sign: f64| {
-                influence.index_axis_mut(Axis(1 - axis), i).scaled_add(sign, &line);
-            };
-            add(i, 1.0);
-            if i > 0 {
-                add(rows - i, across);
-            }
-        };
-        stress_lines([shape[1 - axis], reach + 1], axis, depth, pitch, poisson, component, traction, add);
+        }
+        // Components that are odd along a strip vanish.
+        if odd { line } else { line + (strip - sum) / n as f64 }
+    }
+
+    /// Sums all stresses under a cell, as [`folded`](Self::folded).
+    fn folded_stresses(&self, values: &[[Stress; 3]], strip: [Stress; 3]) -> Vec<[Stress; 3]> {
+        let sums = Traction::ALL.map(|traction| {
+            let of = |stresses: &[Stress; 3]| stresses[traction as usize].components();
+            Component::ALL.map(|component| {
+                let n = component as usize;
+                let odd = traction.odd(component)[self.axis];
+                self.folded(values.iter().map(|stresses| of(stresses)[n]), odd, of(&strip)[n])
+            })
+        });
+        let at =
+            |j: usize| sums.each_ref().map(|sums| Stress::from_components(sums.each_ref().map(|sum| sum[j])));
+        (0..self.grid.shape[self.axis]).map(at).collect()
+    }
+
+    /// Adds the i-th line from the cell at both sides of it.
+    fn add_line(&self, influence: &mut Field, i: usize, line: &ArrayView1<f64>, odd: [bool; 2]) {
+        let across = Axis(1 - self.axis);
+        influence.index_axis_mut(across, i).scaled_add(1.0, line);
+        if i > 0 {
+            let sign = if odd[1 - self.axis] { -1.0 } else { 1.0 };
+            let opposite = influence.len_of(across) - i;
+            influence.index_axis_mut(across, opposite).scaled_add(sign, line);
+        }
     }
 }
 
@@ -361,7 +416,7 @@ fn cancels(alternates: [bool; 2], odd: [bool; 2]) -> bool {
 fn add_folded(influence: &mut Field, table: &Field, odd: [bool; 2]) {
     let [sign_x, sign_y] = odd.map(|odd| if odd { -1.0 } else { 1.0 });
     let (rows, across) = (influence.nrows(), influence.ncols());
-    let mut add = |i: usize, values: ndarray::ArrayView1<f64>, sign: f64| {
+    let mut add = |i: usize, values: ArrayView1<f64>, sign: f64| {
         let mut row = influence.row_mut(i);
         row.slice_mut(s![..values.len()]).scaled_add(sign, &values);
         row.slice_mut(s![across + 1 - values.len()..]).scaled_add(sign * sign_y, &values.slice(s![1..;-1]));
@@ -419,6 +474,9 @@ mod tests {
     use crate::material::{Coating, Material};
     use crate::operator::Edge;
     use approx::assert_relative_eq;
+
+    const LINE: Boundary = Boundary([Edge::Free, Edge::Periodic]);
+    const LINE_ALONG_X: Boundary = Boundary([Edge::Periodic, Edge::Free]);
 
     fn patchy(shape: [usize; 2], seed: usize) -> Field {
         Field::from_shape_fn(shape, |(i, j)| {
@@ -601,18 +659,25 @@ mod tests {
             pressure: repeated(&tractions.pressure),
             shear: tractions.shear.each_ref().map(|field| field.as_ref().map(repeated)),
         };
-        let (line, free) = (
-            Subsurface::new(grid, endless, 0.3, &tractions),
-            Subsurface::new(long, Boundary::FREE, 0.3, &many),
-        );
-        for depth in [0.0, 0.5e-6, 3e-6] {
-            let (one, all) = (line.plane(depth), free.plane(depth));
-            for (one, all) in one.stress.iter().zip(&all.stress) {
-                let middle = all.slice(s![.., TIMES / 2 * 4..(TIMES / 2 + 1) * 4]);
-                // The free grid ends: its far parts lack (width · depth)/(half length)², 24 tractions of 5 at
-                // 123 µm.
-                let difference = (one - &middle).iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-                assert!(difference < 0.02, "{depth}: {difference}");
+        let layer = Coating::new(1e-6, 3.0, 0.2).unwrap();
+        let layers = Stack::new(&Material::elastic(1.0, 0.4).unwrap().layered(vec![layer]));
+        for stack in [None, Some(layers)] {
+            let [line, free] = [(grid, endless, &tractions), (long, Boundary::FREE, &many)].map(
+                |(grid, boundary, tractions)| {
+                    let body = Subsurface::new(grid, boundary, 0.3, tractions);
+                    if let Some(stack) = &stack { body.with_layers(stack.clone()) } else { body }
+                },
+            );
+            for depth in [0.0, 0.5e-6, 3e-6] {
+                let (one, all) = (line.plane(depth), free.plane(depth));
+                for (one, all) in one.stress.iter().zip(&all.stress) {
+                    let middle = all.slice(s![.., TIMES / 2 * 4..(TIMES / 2 + 1) * 4]);
+                    // The free grid ends: its far parts lack (width · depth)/(half length)², 24 tractions of 5 at
+                    // 123 µm.
+                    let difference =
+                        (one - &middle).iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+                    assert!(difference < 0.02, "{depth}: {difference}, {}", stack.is_some());
+                }
             }
         }
     }
@@ -678,7 +743,9 @@ mod tests {
         let tractions = waves_of_tractions(&grid);
         let layer = Coating::new(0.8, 2.0, 0.3).unwrap();
         let stack = Stack::new(&Material::elastic(2.0, 0.3).unwrap().layered(vec![layer; 3]));
-        for (boundary, tolerance) in [(Boundary::PERIODIC, 1e-12), (Boundary::FREE, 1e-5)] {
+        for (boundary, tolerance) in
+            [(Boundary::PERIODIC, 1e-12), (Boundary::FREE, 1e-5), (LINE, 1e-5), (LINE_ALONG_X, 1e-5)]
+        {
             let plain = Subsurface::new(grid, boundary, 0.3, &tractions);
             let layered = Subsurface::new(grid, boundary, 0.3, &tractions).with_layers(stack.clone());
             for (n, depth) in [(0, 0.0), (0, 0.8), (1, 0.8), (1, 1.3), (3, 2.4), (3, 4.0)] {
@@ -733,7 +800,7 @@ mod tests {
         let tractions = waves_of_tractions(&grid);
         let rigid = Material::elastic(f64::INFINITY, 0.0).unwrap();
         let stack = Stack::new(&rigid.layered(vec![Coating::new(0.8, 2.0, 0.3).unwrap()]));
-        for boundary in [Boundary::PERIODIC, Boundary::FREE] {
+        for boundary in [Boundary::PERIODIC, Boundary::FREE, LINE] {
             let body = Subsurface::new(grid, boundary, 0.0, &tractions).with_layers(stack.clone());
             assert!(body.plane(1.0).stress.iter().flatten().all(|stress| *stress == 0.0));
             assert_eq!(body.plane(0.8).stress, body.plane_in(0, 0.8).stress);

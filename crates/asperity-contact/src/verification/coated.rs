@@ -8,9 +8,10 @@ use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::kernel::{LayeredBody, Response};
 use crate::material::{Coating, Material};
-use crate::operator::{Boundary, FreeFft, Operator, Operators, PeriodicFft};
+use crate::operator::{Boundary, Edge, FreeFft, Operator, Operators, PeriodicFft};
 use crate::reference::HertzSphere;
 use crate::solver::{Control, Coupling, Friction, Loading, Tangential};
+use crate::surface::{Axis, Form};
 use crate::units::Pascal;
 
 const RIGID: Pascal = Pascal::INFINITY;
@@ -190,6 +191,45 @@ pub(super) const SHEARED: Case = Case {
             let friction = Friction::coulomb(f64::INFINITY)?.with_coupling(Coupling::None);
             let found = hold(operator.as_mut(), &sphere_gap(&grid)?, &friction, loading, None)?;
             Ok([relative(found.force()[0], PI * SHIFT / (thickness * shear))])
+        })
+    },
+};
+
+/// A cylinder on two layers thin compared with the contact, on a rigid body, in line contact: foundations in series, apart
+/// from an edge as wide as the layers are thick. It is pressed, P' = 2a³/3R(t₁/M₁ + t₂/M₂), then held and pushed along its
+/// axis by s, Q' = 2as/(t₁/G₁ + t₂/G₂).
+pub(super) const LINE: Case = Case {
+    name: "Layered body: cylinder on two thin layers, periodic along it alone",
+    source: "Johnson (1985), section 5.8",
+    checks: || {
+        const SHIFT: f64 = 1e-3;
+        let [normal, shear] = [in_series(foundation), in_series(|young, nu| young / (2.0 * (1.0 + nu)))];
+        let checks = [
+            ("peak pressure", Expected::Order { order: 1.5..=2.4, finest: 1e-3 }),
+            ("approach", Expected::Order { order: 1.4..=2.4, finest: 1e-3 }),
+            ("pressure along the line", Expected::RoundOff(1e-9)),
+            ("force along the axis", Expected::Order { order: 0.8..=1.3, finest: 0.05 }),
+        ];
+        study("a/t", &[4, 8, 16], checks, |n| {
+            let thickness = 1.0 / n as f64;
+            let grid = Grid::new([10 * n, 2], [0.25 * thickness; 2])?;
+            let gap = -Form::Cylinder { radius: RADIUS, axis: Axis::Y }.on(&grid)?.into_heights();
+            let body = layered([RIGID, 0.0], &of_thickness(&TWO, thickness))?;
+            let operators = Operators::new(grid, body, Boundary([Edge::Free, Edge::Periodic]));
+            let length = grid.extent()[1];
+            let load = Control::Load(length * 2.0 / (3.0 * RADIUS * thickness * normal));
+            let solution = press(operators.on(grid.shape).as_mut(), &gap, Pascal::INFINITY, load)?;
+            let peak = (2.0 * RADIUS * thickness * normal).recip();
+            let along = solution.pressure.outer_iter().map(|row| row[1] - row[0]);
+            let loading = Loading { normal: load, tangential: Tangential::Displacement([0.0, SHIFT]) };
+            let friction = Friction::coulomb(f64::INFINITY)?.with_coupling(Coupling::None);
+            let held = hold(operators.coupled_on(grid.shape).as_mut(), &gap, &friction, loading, None)?;
+            Ok([
+                relative(solution.max_pressure(), peak),
+                relative(solution.approach, 0.5 / RADIUS),
+                along.fold(0.0, |most: f64, error| most.max(error.abs())) / peak,
+                relative(held.force()[1], length * 2.0 * SHIFT / (thickness * shear)),
+            ])
         })
     },
 };

@@ -143,6 +143,7 @@ pub const CASES: &[Case] = &[
     coated::FOUNDATION,
     coated::SERIES,
     coated::SHEARED,
+    coated::LINE,
     coated::INCOMPRESSIBLE,
     rough::PLASTIC_LIMIT,
     rough::WORK,

@@ -35,6 +35,7 @@ cases! {
     a_thin_layer_on_a_rigid_body_is_a_foundation: "Coated half-space: thin layer on a rigid body",
     two_thin_layers_on_a_rigid_body_are_foundations_in_series: "Layered body: two thin layers on a rigid body",
     two_thin_layers_are_sheared_in_series_too: "Layered body: a sphere that sticks to two thin layers",
+    two_thin_layers_under_a_line_are_foundations_in_series: "Layered body: cylinder on two thin layers, periodic along it alone",
     what_cannot_be_compressed_flows_out_of_the_gap: "Coated half-space: thin incompressible layer on a rigid body",
     what_flows_everywhere_bears_its_hardness: "fully plastic: W = 0.2 H A₀",
     the_bodies_store_the_work_of_the_load: "rough contact: work of the load",

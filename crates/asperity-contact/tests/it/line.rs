@@ -1,7 +1,8 @@
 //! Contacts that are periodic along one axis only.
 
 use asperity_base::{Field, Grid};
-use asperity_contact::material::Compliances;
+use asperity_contact::kernel::{Line, SharedResponse, response};
+use asperity_contact::material::{Coating, Compliances, Material};
 use asperity_contact::motion::{LoadControl, Motion, Pair, PlasticUpdate, Simulation, Strategy};
 use asperity_contact::operator::{Boundary, Edge, Operator, Operators};
 use asperity_contact::solver::{Bounds, Control, Method, Params, Solution, residual, solve_normal};
@@ -137,21 +138,25 @@ fn a_traction_in_all_directions_displaces_as_the_sum_over_the_line_says() {
         let shape = [u.int_in_range(1..=14)?, u.int_in_range(1..=14)?];
         let grid = Grid::new(shape, [1.0, *u.choose(&[0.4, 1.0, 2.0])?]).unwrap();
         let (axis, boundary) = *u.choose(&[(0, ALONG_X), (1, ALONG_Y)])?;
-        let pair = compliances([0.2, 0.4], [1.0, 5.0]);
+        let steel = Material::elastic(2.0, 0.3).unwrap();
+        let coated = steel.clone().coated(Coating::new(0.4, 7.0, 0.2).unwrap());
+        let half_spaces: SharedResponse = compliances([0.2, 0.4], [1.0, 5.0]).into();
+        let pair = if *u.choose(&[true, false])? { half_spaces } else { response(&coated, &steel).unwrap() };
         let seed: usize = u.int_in_range(1..=9)?;
         let traction: [Field; 3] = std::array::from_fn(|n| {
             Field::from_shape_fn(shape, |(i, j)| ((seed * i + 3 * j * j + n * i * j) % 11) as f64 - 4.0)
         });
-        let mut operator = Operators::new(grid, pair, boundary).coupled_on(shape);
+        let mut operator = Operators::new(grid, pair.clone(), boundary).coupled_on(shape);
         let mut fast: [Field; 3] = std::array::from_fn(|_| grid.zeros());
         operator.apply(traction.each_ref().map(Some), fast.each_mut().map(Some));
         let extent = grid.extent();
-        let line = asperity_contact::kernel::Line { axis, period: extent[axis], datum: extent[1 - axis] };
+        let line = Line { axis, period: extent[axis], datum: extent[1 - axis] };
+        let influence = pair.coupled().unwrap().coupled_line_influence(&line, grid.pitch).unwrap();
         let mut slow: [Field; 3] = std::array::from_fn(|_| grid.zeros());
         for (i, j) in ndarray::indices(shape) {
             for (k, l) in ndarray::indices(shape) {
                 let offset = |a: usize, b: usize, axis: usize| (a as f64 - b as f64) * grid.pitch[axis];
-                let matrix = line.coupled_displacement(offset(i, k, 0), offset(j, l, 1), grid.pitch, &pair);
+                let matrix = influence(offset(i, k, 0), offset(j, l, 1));
                 for (slow, row) in slow.iter_mut().zip(matrix.matrix()) {
                     slow[[i, j]] += (0..3).map(|n| row[n] * traction[n][[k, l]]).sum::<f64>();
                 }
@@ -159,7 +164,7 @@ fn a_traction_in_all_directions_displaces_as_the_sum_over_the_line_says() {
         }
         let largest = slow.iter().flatten().fold(0.0f64, |m, u| m.max(u.abs()));
         for (fast, slow) in fast.iter().flatten().zip(slow.iter().flatten()) {
-            assert!((fast - slow).abs() < 1e-12 * largest, "{grid:?}, {boundary:?}: {fast:e} and {slow:e}");
+            assert!((fast - slow).abs() < 1e-11 * largest, "{grid:?}, {boundary:?}: {fast:e} and {slow:e}");
         }
         let work: f64 = traction.iter().zip(&fast).map(|(t, u)| (t * u).sum()).sum();
         assert!(work > 0.0);
@@ -202,4 +207,34 @@ fn a_body_that_passes_over_another_has_no_rims_at_its_sides() {
     }
     let refused = Simulation::new(pair, ALONG_X, motion, params).err().unwrap();
     assert!(refused.to_string().contains("free along x"), "{refused}");
+}
+
+/// The displacements of a pressure without force decay along the free axis. Uniform cells in place of waves miss by
+/// (qΔx)²/24.
+#[test]
+fn on_layers_it_is_a_periodic_contact_whose_free_axis_is_long() {
+    let layers = [(0.2, 30.0, 0.2), (1.0, 2.0, 0.45)].map(|(t, e, nu)| Coating::new(t, e, nu).unwrap());
+    let [lower, rigid] = [1.0, INF].map(|young| Material::elastic(young, 0.3).unwrap());
+    for body in [lower.clone().layered(layers.to_vec()), rigid.clone().layered(layers.to_vec())] {
+        let pair = if body.young == INF { response(&body, &lower) } else { response(&body, &rigid) }.unwrap();
+        let errors = [8, 16, 32].map(|n| {
+            let grid = Grid::new([16 * n, n], [2.0 / n as f64; 2]).unwrap();
+            let pressure = Field::from_shape_fn(grid.shape, |(i, j)| {
+                let s = (grid.centre(0, i) - 16.0).powi(2);
+                let along = (std::f64::consts::PI * grid.centre(1, j)).cos();
+                (3.0 - 6.0 * s + s * s) * (-0.5 * s).exp() + (-s).exp() * along
+            });
+            let [line, periodic] = [ALONG_Y, Boundary::PERIODIC].map(|boundary| {
+                let mut displacement = grid.zeros();
+                let operators = Operators::new(grid, pair.clone(), boundary);
+                operators.on(grid.shape).apply(&pressure, &mut displacement);
+                displacement
+            });
+            difference(&line, &periodic)
+        });
+        for pair in errors.windows(2) {
+            let order = (pair[0] / pair[1]).log2();
+            assert!((1.8..2.2).contains(&order), "{errors:?}: order {order:.2}");
+        }
+    }
 }

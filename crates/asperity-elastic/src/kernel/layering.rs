@@ -2,9 +2,12 @@
 
 use std::f64::consts::PI;
 
+use crate::grid::Field;
 use crate::kernel::cell::integrals_below;
-use crate::kernel::{Influence, normal_displacement};
-use crate::math::{gauss_legendre, parallel};
+use crate::kernel::remainder::{Remainder, Transform};
+use crate::kernel::smooth_line::{SmoothLine, Strips};
+use crate::kernel::{Influence, Line, normal_displacement};
+use crate::math::parallel;
 use crate::units::Metre;
 
 /// Isotropic layered bodies with known harmonics. Short waves have the response of one half-space, long waves
@@ -37,34 +40,112 @@ impl Layering {
     /// The error is below 1e-11 of the displacement of a cell under its own pressure if û(q) is as exact and
     /// a smooth function of ln q. This holds for any ratio of cell size to depth.
     pub fn influence(&self, harmonics: impl Fn(f64) -> f64 + Sync, pitch: [Metre; 2]) -> Box<dyn Influence> {
-        let &Self { short, long, depth } = self;
-        let rest = |q: f64| harmonics(q) - 2.0 / q * (short + (long - short) * (-q * depth).exp());
-        let both = |q: f64| [rest(q); 2];
-        let remainder = Remainder::new(both, [Transform::Hankel, Transform::Mean], depth, Metre::INFINITY);
-        Box::new(Layered { layering: *self, pitch, remainder })
+        let (short, below) = (self.short, self.below(&harmonics));
+        let half = pitch.map(|p| 0.5 * p);
+        Box::new(move |x: Metre, y: Metre| {
+            let [rest] = below.displacement([x, y], half);
+            short * normal_displacement(x, y, pitch, 1.0) + rest
+        })
+    }
+
+    /// Returns the displacement as [`Layering::influence`], under each cell of a `line`. See [`Line`]: its uniform part is 0 at the
+    /// datum, or relative to a body that does not give way to long waves.
+    ///
+    /// The error is below 1e-10 of the displacement of a cell under its own pressure, on these bodies or on the half-space of
+    /// short waves, whichever is larger.
+    pub fn line_influence(
+        &self,
+        harmonics: impl Fn(f64) -> f64 + Sync,
+        line: &Line,
+        pitch: [Metre; 2],
+    ) -> Box<dyn Influence> {
+        let below = self.below_line(harmonics, line, pitch);
+        Box::new(LayeredLine { line: *line, pitch, short: self.short, below })
+    }
+
+    /// Returns the displacement under each cell of a `line` minus that of the half-space of short waves.
+    pub(super) fn below_line(
+        &self,
+        harmonics: impl Fn(f64) -> f64 + Sync,
+        line: &Line,
+        pitch: [Metre; 2],
+    ) -> SmoothLine<1> {
+        let below = self.below(&harmonics);
+        let rest = |q: f64| [self.rest(&harmonics, q)];
+        let scales = [self.depth, line.datum];
+        let strips = Strips::new(rest, [Transform::Cosine], [below.image], scales, Metre::INFINITY);
+        let strips = if self.long > 0.0 { strips.relative_to_datum() } else { strips };
+        SmoothLine::new(
+            line,
+            pitch,
+            [[false; 2]],
+            move |at, half| below.displacement(at, half),
+            move |x, half| strips.under_strip(x, half),
+        )
+    }
+
+    fn below(&self, harmonics: &(impl Fn(f64) -> f64 + Sync)) -> Below {
+        let both = |q: f64| [self.rest(harmonics, q); 2];
+        let transforms = [Transform::Hankel, Transform::Mean];
+        Below {
+            depth: self.depth,
+            image: (self.long - self.short) / PI,
+            remainder: Remainder::new(both, transforms, self.depth, Metre::INFINITY),
+        }
+    }
+
+    /// R(q).
+    fn rest(&self, harmonics: &impl Fn(f64) -> f64, q: f64) -> f64 {
+        let Self { short, long, depth } = self;
+        harmonics(q) - 2.0 / q * (short + (long - short) * (-q * depth).exp())
     }
 }
 
-/// The influence returned by [`Layering::influence`].
-struct Layered {
-    layering: Layering,
-    pitch: [Metre; 2],
+/// Displacement under a cell minus that of the half-space of short waves.
+struct Below {
+    depth: Metre,
+    /// Amplitude of the potential at the depth.
+    image: f64,
     remainder: Remainder<2>,
 }
 
-impl Influence for Layered {
-    fn displacement(&self, x: Metre, y: Metre) -> f64 {
-        let Self { layering: Layering { short, long, depth }, pitch, remainder } = self;
-        let (half, image) = (pitch.map(|p| 0.5 * p), (long - short) / PI);
-        let below = |x: f64, y: f64| image / (x * x + y * y + depth * depth).sqrt();
-        let [rest] = integrals_below(
-            [x, y],
+impl Below {
+    fn displacement(&self, at: [Metre; 2], half: [Metre; 2]) -> [f64; 1] {
+        let Self { depth, image, remainder } = self;
+        let image_at = |x: f64, y: f64| image / (x * x + y * y + depth * depth).sqrt();
+        integrals_below(
+            at,
             *depth,
             half,
             |x, y| [image * potential_below(x, y, *depth) + remainder.of_rectangle(x, y)],
-            |x, y| [below(x, y) + remainder.at(x.hypot(y))[0]],
-        );
-        short * normal_displacement(x, y, *pitch, 1.0) + rest
+            |x, y| [image_at(x, y) + remainder.at(x.hypot(y))[0]],
+        )
+    }
+}
+
+/// The influence returned by [`Layering::line_influence`].
+struct LayeredLine {
+    line: Line,
+    pitch: [Metre; 2],
+    short: f64,
+    below: SmoothLine<1>,
+}
+
+impl LayeredLine {
+    fn below(&self, x: Metre, y: Metre) -> f64 {
+        self.below.displacement(self.line.turned([x, y]))[0]
+    }
+}
+
+impl Influence for LayeredLine {
+    fn displacement(&self, x: Metre, y: Metre) -> f64 {
+        self.short * self.line.normal_displacement(x, y, self.pitch, 1.0) + self.below(x, y)
+    }
+
+    fn table(&self, shape: [usize; 2], pitch: [Metre; 2]) -> Field {
+        let half_space = self.line.influence_table(shape, pitch, 1.0);
+        self.short * half_space
+            + parallel::field(shape, |i, j| self.below(i as f64 * pitch[0], j as f64 * pitch[1]))
     }
 }
 
@@ -73,198 +154,6 @@ fn potential_below(x: f64, y: f64, z: f64) -> f64 {
     let r = x.hypot(y).hypot(z);
     let (across, along) = (x.hypot(z), y.hypot(z));
     x * (y / across).asinh() + y * (x / along).asinh() - z * (x * y / (z * r)).atan()
-}
-
-/// Transforms of functions R(q), see [`Transform`], tabulated over asinh(r/d).
-///
-/// Each is multiplied by a power of r² + d², and is then bounded and smooth.
-pub(super) struct Remainder<const N: usize> {
-    depth: Metre,
-    transforms: [Transform; N],
-    /// Chebyshev coefficients of all of them, for each interval of unit width in asinh(r/d).
-    pieces: Vec<[[f64; N]; ORDER]>,
-    nodes: Vec<(f64, f64)>,
-}
-
-/// A transform of a function R(q).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Transform {
-    /// ρ(r) = ∫ R(q) J₀(qr) q dq/2π.
-    Hankel,
-    /// ∫ R(q) Jₙ(qr) q dq/2π, n > 0.
-    Order(i32),
-    /// Mean of ρ within r, w(r) = ∫₀^r ρ(s) s ds/r² = ∫ R(q) J₁(qr)/(qr) q dq/2π.
-    Mean,
-    /// φ(r) = ∫ R(q) J₀(qr) dq/2π.
-    Potential,
-}
-
-impl Transform {
-    /// Returns the factor of the tabulated values, for r² + d².
-    fn power(self, squared: f64) -> f64 {
-        if self == Self::Potential { squared.sqrt() } else { squared }
-    }
-
-    /// The integrand over R(q), at x = qr.
-    fn weight(self, q: f64, x: f64) -> f64 {
-        match self {
-            Self::Hankel => q * libm::j0(x),
-            Self::Order(1) => q * libm::j1(x),
-            Self::Order(order) => q * libm::jn(order, x),
-            Self::Mean => q * if x < 1e-4 { 0.5 } else { libm::j1(x) / x },
-            Self::Potential => libm::j0(x),
-        }
-    }
-}
-
-/// Number of Chebyshev coefficients of an interval. The nearest singularity, at a distance of ±iπ/2, gives an
-/// error of 6⁻¹⁸.
-const ORDER: usize = 18;
-/// Number of intervals, until the remainder has decayed to d²/r² = 1e-10 of the other terms.
-const PIECES: usize = 13;
-
-impl<const N: usize> Remainder<N> {
-    /// Tabulates a transform of each of the functions `rest` = R(q) of one scale, for distances up to `reach`.
-    pub(super) fn new(
-        rest: impl Fn(f64) -> [f64; N] + Sync,
-        transforms: [Transform; N],
-        depth: Metre,
-        reach: Metre,
-    ) -> Self {
-        let nodes = gauss_legendre(16);
-        let count = ((reach / depth).asinh() as usize).saturating_add(1).min(PIECES);
-        let pieces = parallel::tasks(0..count, |piece| {
-            let values: [[f64; N]; ORDER] = std::array::from_fn(|k| {
-                let r = depth * (piece as f64 + 0.5 + 0.5 * chebyshev_angle(k).cos()).sinh();
-                hankel(&rest, transforms, r, depth, &nodes)
-            });
-            chebyshev(&values)
-        });
-        Self { depth, transforms, pieces, nodes }
-    }
-
-    /// Returns the transforms at the distance r.
-    pub(super) fn at(&self, r: Metre) -> [f64; N] {
-        let s = (r / self.depth).asinh();
-        let end = self.pieces.len() as f64;
-        // Beyond the table ρ decays further, but none of the others.
-        let (s, beyond) = if s < end { (s, 1.0) } else { (end, self.depth * end.sinh() / r) };
-        let piece = (s as usize).min(self.pieces.len() - 1);
-        let values = clenshaw(&self.pieces[piece], 2.0 * (s - piece as f64) - 1.0);
-        let squared = r * r + self.depth * self.depth;
-        std::array::from_fn(|n| {
-            let beyond = if self.transforms[n] == Transform::Hankel { beyond } else { 1.0 };
-            values[n] * beyond / self.transforms[n].power(squared)
-        })
-    }
-}
-
-/// ρ and w.
-impl Remainder<2> {
-    /// Computes ∬ ρ over 0 … x and 0 … y. In polar coordinates it is the integral of r² w over the angle.
-    /// Each of the two far sides contributes ∫ c w(√(c² + s²)) ds with its distance c.
-    fn of_rectangle(&self, x: Metre, y: Metre) -> f64 {
-        let side = |c: f64, length: f64| {
-            let [sum] = along_side(c, length, self.depth, &self.nodes, |r, _| [self.at(r)[1]]);
-            c * sum
-        };
-        side(x, y) + side(y, x)
-    }
-}
-
-/// Computes ∫ f(√(c² + s²), s) ds over 0 … `length` of functions that are smooth on the scale `depth`, with s = √(c² + d²) sinh v.
-pub(super) fn along_side<const N: usize>(
-    c: Metre,
-    length: Metre,
-    depth: Metre,
-    nodes: &[(f64, f64)],
-    f: impl Fn(Metre, Metre) -> [f64; N],
-) -> [f64; N] {
-    let scale = c.hypot(depth);
-    let end = (length / scale).asinh();
-    let panels = end.abs().ceil().max(1.0);
-    let half = 0.5 * end / panels;
-    let mut sums = [0.0; N];
-    for panel in 0..panels as usize {
-        for &(node, weight) in nodes {
-            let v = half * ((2 * panel + 1) as f64 + node);
-            let s = scale * v.sinh();
-            let values = f(c.hypot(s), s);
-            sums = std::array::from_fn(|n| sums[n] + weight * v.cosh() * values[n]);
-        }
-    }
-    sums.map(|sum| sum * half * scale)
-}
-
-/// Computes transforms at `r`, times their powers of r² + d², by Gauss' rule on panels that grow with q up to a few
-/// oscillations.
-///
-/// At large r only the first oscillations contribute. The integrand is then tapered over many oscillations,
-/// which changes its transform by less than rounding.
-fn hankel<const N: usize>(
-    rest: &impl Fn(f64) -> [f64; N],
-    transforms: [Transform; N],
-    r: Metre,
-    depth: Metre,
-    nodes: &[(f64, f64)],
-) -> [f64; N] {
-    /// Lower limit of the integral, in units of 1/r and 1/d. Below it the integrand is that at the limit.
-    const FIRST: f64 = 1e-7;
-    /// e^(−qd) is less than 1e-19.
-    const LAST: f64 = 45.0;
-    /// Centre and width of the taper of the integrand in qr.
-    const FADE: [f64; 2] = [96.0, 12.0];
-    /// Largest change of qr and of qd over a panel.
-    const PHASE: f64 = 6.0;
-    let longest = PHASE / r.max(depth);
-    let end = (LAST / depth).min((FADE[0] + 6.0 * FADE[1]) / r);
-    let mut start = FIRST / r.max(depth);
-    let mut sums = [0.0; N];
-    let mut add = |q: f64, width: f64| {
-        let values = rest(q);
-        let mut weights = [0.0; N];
-        for n in 0..N {
-            let known = transforms[..n].iter().position(|other| *other == transforms[n]);
-            weights[n] = known.map_or_else(|| transforms[n].weight(q, q * r), |known| weights[known]);
-            sums[n] += width * values[n] * weights[n];
-        }
-    };
-    add(0.5 * start, start);
-    while start < end {
-        let half = 0.5 * start.min(longest).min(end - start);
-        for &(node, weight) in nodes {
-            let q = start + half * (1.0 + node);
-            add(q, weight * half * 0.5 * libm::erfc((q * r - FADE[0]) / FADE[1]));
-        }
-        start += 2.0 * half;
-    }
-    let squared = r * r + depth * depth;
-    std::array::from_fn(|n| sums[n] * transforms[n].power(squared) / (2.0 * PI))
-}
-
-/// Returns the angle of the k-th node of an interval.
-fn chebyshev_angle(k: usize) -> f64 {
-    PI * (k as f64 + 0.5) / ORDER as f64
-}
-
-/// Returns the coefficients of the polynomials with these values at the nodes.
-fn chebyshev<const N: usize>(values: &[[f64; N]; ORDER]) -> [[f64; N]; ORDER] {
-    std::array::from_fn(|order| {
-        let scale = if order == 0 { 1.0 } else { 2.0 } / ORDER as f64;
-        std::array::from_fn(|n| {
-            let sum: f64 = (0..ORDER).map(|k| values[k][n] * (order as f64 * chebyshev_angle(k)).cos()).sum();
-            sum * scale
-        })
-    })
-}
-
-/// Σ cₙ Tₙ(x) of several polynomials.
-fn clenshaw<const N: usize>(coefficients: &[[f64; N]; ORDER], x: f64) -> [f64; N] {
-    let (mut one, mut two) = ([0.0; N], [0.0; N]);
-    for c in coefficients[1..].iter().rev() {
-        (one, two) = (std::array::from_fn(|n| c[n] + 2.0 * x * one[n] - two[n]), one);
-    }
-    std::array::from_fn(|n| coefficients[0][n] + x * one[n] - two[n])
 }
 
 #[cfg(test)]

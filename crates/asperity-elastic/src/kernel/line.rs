@@ -107,7 +107,7 @@ impl Line {
     }
 
     /// Reorders values for x and y to values across and along the line, and vice versa.
-    fn turned<T: Copy>(&self, [x, y]: [T; 2]) -> [T; 2] {
+    pub(super) fn turned<T: Copy>(&self, [x, y]: [T; 2]) -> [T; 2] {
         if self.axis == 1 { [x, y] } else { [y, x] }
     }
 

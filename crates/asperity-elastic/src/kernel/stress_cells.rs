@@ -1,21 +1,50 @@
 //! Stress in layers under a uniformly loaded cell.
 
 use crate::kernel::cell::{far_points, gauss_points};
-use crate::kernel::layering::{Remainder, Transform};
-use crate::kernel::{Stack, Traction, WaveStress, cell_stress};
+use crate::kernel::remainder::{Remainder, Transform};
+use crate::kernel::smooth_line::Strips;
+use crate::kernel::{Stack, Traction, WaveStress};
 use crate::stress::{Component, Stress};
 use crate::units::Metre;
 
-/// The stress at a depth of a body with layers, under a cell with a uniform traction.
+/// The stress of waves at a depth of a body with layers, in the layer at the surface minus that of a half-space of its
+/// material. It decays there as e^(−q(2t − z)), in the layers below as e^(−qz).
+struct Beyond<'s> {
+    stack: &'s Stack,
+    layer: usize,
+    depth: Metre,
+    /// The half-space.
+    surface: Option<Stack>,
+    /// Depth of the singularities of its transforms.
+    scale: Metre,
+}
+
+impl<'s> Beyond<'s> {
+    fn new(stack: &'s Stack, layer: usize, depth: Metre) -> Self {
+        let (surface, scale) = match (layer, stack.interfaces().get(1)) {
+            (0, Some(thickness)) => (Some(stack.surface()), 2.0 * thickness - depth),
+            _ => (None, depth),
+        };
+        Self { stack, layer, depth, surface, scale }
+    }
+
+    /// Returns some amplitudes of a wave.
+    fn wave<const N: usize>(&self, q: f64, amplitudes: impl Fn(&WaveStress) -> [f64; N]) -> [f64; N] {
+        let own = amplitudes(&self.stack.stress(q, self.layer, self.depth));
+        let Some(surface) = &self.surface else { return own };
+        let other = amplitudes(&surface.stress(q, 0, self.depth));
+        std::array::from_fn(|n| own[n] - other[n])
+    }
+}
+
+/// The stress at a depth of a body with layers under a cell with a uniform traction, in the layer at the surface minus that of a
+/// half-space of its material, see [`crate::kernel::cell_stress`].
 ///
 /// The stresses of waves depend on their direction φ by cos nφ and sin nφ, n up to 3, and the stress under a point load by their
-/// transforms with Jₙ. In the layer at the surface these are what the stress of a half-space of the same material, a closed form,
-/// leaves over. It decays as e^(−q(2t − z)), in the layers below as e^(−qz). So it is smooth, and Gauss' rule
-/// integrates it over a cell, or over its parts where they are larger than that depth.
+/// transforms with Jₙ. These are smooth, and Gauss' rule integrates them over a cell, or over its parts where they are larger than
+/// the depth of their singularities.
 pub struct LayerCells {
     pitch: [Metre; 2],
-    depth: Metre,
-    /// Poisson's ratio of the layer at the surface, for points in it.
     surface: Option<f64>,
     /// Depth of the singularities of the transforms.
     scale: Metre,
@@ -26,22 +55,7 @@ impl LayerCells {
     /// Tabulates the stress of a body at a `depth` in a `layer`, see [`Stack::stress`], at distances up to `reach`.
     pub fn new(stack: &Stack, layer: usize, depth: Metre, pitch: [Metre; 2], reach: Metre) -> Self {
         use Transform::{Hankel, Order};
-        let half_space = stack.surface();
-        let (thickness, surface) = match (layer, stack.interfaces().get(1)) {
-            (0, Some(thickness)) => (*thickness, Some(half_space.poisson())),
-            _ => (0.0, None),
-        };
-        let scale = if surface.is_some() { 2.0 * thickness - depth } else { depth };
-        let rest = |q: f64| {
-            let own = by_order(&stack.stress(q, layer, depth));
-            match surface {
-                None => own,
-                Some(_) => {
-                    let other = by_order(&half_space.stress(q, 0, depth));
-                    std::array::from_fn(|n| own[n] - other[n])
-                }
-            }
-        };
+        let beyond = Beyond::new(stack, layer, depth);
         let transforms = [
             Hankel,
             Hankel,
@@ -55,7 +69,13 @@ impl LayerCells {
             Order(1),
             Order(3),
         ];
-        Self { pitch, depth, surface, scale, table: Remainder::new(rest, transforms, scale, reach) }
+        let table = Remainder::new(|q| beyond.wave(q, by_order), transforms, beyond.scale, reach);
+        Self { pitch, surface: beyond.surface.as_ref().map(Stack::poisson), scale: beyond.scale, table }
+    }
+
+    /// Poisson's ratio of the half-space whose stress is to be added, in the layer at the surface.
+    pub fn surface(&self) -> Option<f64> {
+        self.surface
     }
 
     /// Returns the stress at `(x, y)` per unit of each of [`Traction::ALL`] on the cell at the origin, dimensionless.
@@ -82,10 +102,7 @@ impl LayerCells {
                 gauss_points(centre, half).for_each(|(point, weight)| add(point, weight));
             }
         }
-        let Some(poisson) = self.surface else { return sums };
-        let closed =
-            Traction::ALL.map(|traction| cell_stress([x, y], self.depth, self.pitch, poisson, traction));
-        std::array::from_fn(|n| sums[n] + closed[n])
+        sums
     }
 
     fn under_point(&self, [x, y]: [Metre; 2]) -> [Stress; 3] {
@@ -103,6 +120,49 @@ impl LayerCells {
         };
         let along_y = exchanged(along_x(&table, [s, c]));
         [along_x(&table, [c, s]), along_y, pressure]
+    }
+}
+
+/// The stress as that of [`LayerCells`], under an endless strip of cells along an axis.
+pub struct LayerStrip {
+    strips: Strips<18>,
+    half: Metre,
+}
+
+impl LayerStrip {
+    /// Tabulates the stress of a body at a `depth` in a `layer` at distances across the strip up to `reach`.
+    pub fn new(
+        stack: &Stack,
+        layer: usize,
+        depth: Metre,
+        pitch: [Metre; 2],
+        axis: usize,
+        reach: Metre,
+    ) -> Self {
+        let beyond = Beyond::new(stack, layer, depth);
+        let direction = if axis == 1 { [1.0, 0.0] } else { [0.0, 1.0] };
+        let odd = |n: usize| Traction::ALL[n / 6].odd(Component::ALL[n % 6]);
+        let amplitudes = |wave: &WaveStress| {
+            std::array::from_fn(|n| {
+                let amplitude = wave.component(direction, Component::ALL[n % 6], Traction::ALL[n / 6]);
+                // The wave e^(iqx) with a factor i is −sin qx.
+                if odd(n)[1 - axis] { -amplitude } else { amplitude }
+            })
+        };
+        let transforms: [Transform; 18] =
+            std::array::from_fn(|n| if odd(n)[1 - axis] { Transform::Sine } else { Transform::Cosine });
+        let rest = |q: f64| beyond.wave(q, amplitudes);
+        let scales = [beyond.scale; 2];
+        let strips = Strips::new(rest, transforms, [0.0; 18], scales, reach);
+        Self { strips, half: 0.5 * pitch[1 - axis] }
+    }
+
+    /// Returns the stress at a distance across the strip per unit of each of [`Traction::ALL`], dimensionless.
+    pub fn at(&self, across: Metre) -> [Stress; 3] {
+        let values = self.strips.under_strip(across, self.half);
+        std::array::from_fn(|traction| {
+            Stress::from_components(std::array::from_fn(|component| values[6 * traction + component]))
+        })
     }
 }
 
@@ -155,11 +215,19 @@ fn by_order(wave: &WaveStress) -> [f64; 11] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::cell_stress;
     use crate::material::{Coating, Material};
 
     fn stack(layers: &[[f64; 3]], [young, poisson]: [f64; 2]) -> Stack {
         let layers = layers.iter().map(|[t, young, poisson]| Coating::new(*t, *young, *poisson).unwrap());
         Stack::new(&Material::elastic(young, poisson).unwrap().layered(layers.collect()))
+    }
+
+    /// Returns the stress with that of the half-space.
+    fn whole(cells: &LayerCells, at: [f64; 2], depth: f64) -> [Stress; 3] {
+        let rest = cells.at(at);
+        let Some(poisson) = cells.surface() else { return rest };
+        std::array::from_fn(|n| rest[n] + cell_stress(at, depth, cells.pitch, poisson, Traction::ALL[n]))
     }
 
     const PLACES: [[f64; 2]; 4] = [[0.0, 0.0], [0.6, 0.0], [-1.2, 2.1], [9.0, -4.2]];
@@ -171,7 +239,7 @@ mod tests {
             for pitch in [[0.6, 0.7], [0.05, 0.1], [3.0, 0.7]] {
                 let cells = LayerCells::new(&stack, layer, depth, pitch, 60.0);
                 for place in PLACES {
-                    let found = cells.at(place);
+                    let found = whole(&cells, place, depth);
                     for (found, traction) in found.iter().zip(Traction::ALL) {
                         let exact = cell_stress(place, depth, pitch, 0.3, traction);
                         for (found, exact) in found.components().iter().zip(exact.components()) {
@@ -199,7 +267,7 @@ mod tests {
             let sides = [n, n + 1].map(|n| (LayerCells::new(&stack, n, depth, pitch, 60.0), constants(n)));
             for place in PLACES {
                 let seen = sides.each_ref().map(|(cells, [young, poisson])| {
-                    cells.at(place).map(|stress| {
+                    whole(cells, place, depth).map(|stress| {
                         let Stress { xx, yy, zz, yz, xz, xy } = stress;
                         let strain = |own: f64, others: f64| (own - poisson * others) / young;
                         [zz, yz, xz, strain(xx, yy + zz), strain(yy, xx + zz), (1.0 + poisson) / young * xy]

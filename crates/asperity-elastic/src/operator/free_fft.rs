@@ -19,8 +19,8 @@ pub struct FreeFamily {
     response: SharedResponse,
     boundary: Boundary,
     datum: Metre,
-    /// The influence of a single cell.
-    influence: Shared<(), dyn Influence>,
+    /// The influence of a single cell, or of lines of cells by the bits of their periods.
+    influence: Shared<Option<u64>, dyn Influence>,
     /// Kernels by the size of their transforms.
     kernels: Shared<[usize; 2], MixedKernel>,
     /// Families by the bits of their coarse pitch, which depends on the number of cells along a periodic
@@ -72,12 +72,13 @@ impl FreeFamily {
     }
 
     fn influence(&self, grid: &Grid) -> Arc<dyn Influence> {
-        match self.boundary.line(grid, self.datum) {
-            None => self.influence.get((), || self.response.influence(self.pitch).into()),
+        let line = self.boundary.line(grid, self.datum);
+        self.influence.get(line.map(|line| line.period.to_bits()), || match line {
+            None => self.response.influence(self.pitch).into(),
             Some(line) => {
                 self.response.line_influence(&line, self.pitch).expect("a response that knows lines").into()
             }
-        }
+        })
     }
 
     fn kernel(&self, padded: [usize; 2], influence: &dyn Influence) -> Arc<MixedKernel> {

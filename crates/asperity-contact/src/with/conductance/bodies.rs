@@ -1,7 +1,7 @@
 //! Conductivities of the bodies, and the response of a pair to a flux.
 
 use crate::error::{Error, Result, check};
-use crate::kernel::{Influence, Layering, Response, SharedResponse, potential_compliance};
+use crate::kernel::{Influence, Layering, Line, Response, SharedResponse, potential_compliance};
 use crate::units::Metre;
 use crate::with::BodyConstants;
 use crate::with::conductance::Kind;
@@ -114,8 +114,7 @@ pub fn composite_conductivity(lower: f64, upper: f64) -> Result<f64> {
 }
 
 /// Returns the response of a pair of bodies to a flux: the drop between far fields per unit flux, K m²/W or V
-/// m²/A, for the [operators](crate::operator::Operators) of any boundary; with layers not for one that is
-/// periodic along one axis alone.
+/// m²/A, for the [operators](crate::operator::Operators) of any boundary.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for conductivities without meaning, and if neither body has a resistance.
@@ -157,6 +156,10 @@ impl Response for LayeredConductor {
     fn influence(&self, pitch: [Metre; 2]) -> Box<dyn Influence> {
         self.layering.influence(|q| self.harmonic(q), pitch)
     }
+
+    fn line_influence(&self, line: &Line, pitch: [Metre; 2]) -> Option<Box<dyn Influence>> {
+        Some(self.layering.line_influence(|q| self.harmonic(q), line, pitch))
+    }
 }
 
 #[cfg(test)]
@@ -190,6 +193,13 @@ mod tests {
         for q in [1e-6, 1e-2, 1.0, 30.0] {
             assert_relative_eq!(harmonic(2.0, 0.4, 2.0, q), 1.0 / (2.0 * q), max_relative = 1e-14);
             assert_relative_eq!(harmonic(5.0, 1e9, 2.0, q), 1.0 / (2.0 * q), max_relative = 1e-14);
+        }
+        let (line, pitch) = (Line { axis: 0, period: 3.0, datum: 20.0 }, [0.5, 0.3]);
+        let of = |body: SharedResponse| body.line_influence(&line, pitch).unwrap();
+        let body = Conductor::new(2.0).unwrap().coated(0.4, 2.0).unwrap();
+        let (layered, plain) = (of(body.response()), of(4.0.into()));
+        for [x, y] in [[0.0, 0.0], [0.5, 0.6], [1.5, 9.0], [0.0, 30.0]] {
+            assert_relative_eq!(layered.displacement(x, y), plain.displacement(x, y), epsilon = 1e-13);
         }
         // Thin: the layer adds its resistance t/κ₁ less that of the base which it displaces, t κ₁/κ₂² along
         // it.
