@@ -419,9 +419,7 @@ impl<'a> Sizes<'a> {
             }
             Course::Sweep(_) | Course::Passes(_) if case.interface.lubrication.is_some() => {
                 let larger = (nx * ny / LARGE).powf(FILM_GROWTH);
-                // A position starts from the one before, and has no film on half as many cells.
-                let share = if matches!(course, Course::Passes(_)) { FILM_STEP } else { 1.0 };
-                return Cost { convolutions: share * larger * FILM.convolutions, ..FILM };
+                return Cost { convolutions: larger * FILM.convolutions, ..FILM };
             }
             Course::Sweep(_) if case.steady.is_some() => {
                 let larger = (nx * ny / LARGE).powf(STEADY_GROWTH);
@@ -560,13 +558,12 @@ const ROLLING_UNLIKE: Cost = Cost { convolutions: 230.0, work: 5.0 };
 /// the number of cells.
 const STEADY: Cost = Cost { convolutions: 135.0, work: 2.5 };
 const STEADY_GROWTH: f64 = 0.6;
-/// Cost of a film of oil at a speed, together with the film on half as many cells; the exponent of its growth with the
+/// Cost of a film of oil at a speed, together with the film on half as many cells, or at a position of a motion, whose
+/// steps of time are halved where they do not end at once; the exponent of its growth with the
 /// number of cells; and the numbers that it keeps for each cell, most of them in the factor of the near matrix.
 const FILM: Cost = Cost { convolutions: 300.0, work: 6.0 };
 const FILM_GROWTH: f64 = 0.7;
 const FILM_MEMORY: f64 = 1500.0;
-/// Share of this cost that a position of a motion has.
-const FILM_STEP: f64 = 0.2;
 /// Number of cells from which a contact takes more convolutions, and the exponent of this growth.
 const LARGE: f64 = 16384.0;
 const GROWTH: f64 = 0.09;
