@@ -12,7 +12,7 @@ from . import _case, _core
 from ._described import described
 from ._raise import bad_input
 from ._same import Comparable
-from ._stress import Extreme, _dataset, _depths, _finite, _ratio
+from ._stress import Extreme, _constants, _dataset, _depths, _finite
 from ._units import Pair, Quantity, choice, edges, lengths, quantity
 from .keys import Boundary
 from .material import Material
@@ -164,7 +164,10 @@ def fatigue(
         raise bad_input("friction", f"'friction' has the shape {ratio.shape}, expected a number, or one for each of {len(found)} positions")
     ratio = np.broadcast_to(ratio, len(found)) * (-1.0 if body == "upper" else 1.0)
     planes = _depths(depths)
-    given = (found, lengths("pitch", pitch), ratio.tolist(), edges(boundary), _ratio(poisson, material))
+    _, own, layers = _constants(poisson, material)
+    if layers:
+        raise bad_input("material", "the limits of fatigue are those of one material, and a body with layers has several")
+    given = (found, lengths("pitch", pitch), ratio.tolist(), edges(boundary), own)
     limits = (quantity("torsion", torsion, "pressure"), quantity("tension", tension, "pressure"))
     fields, criterion = _core.fatigue(given, limits, planes, _case.threads(threads))
     return Fatigue(fields, (criterion[0], criterion[1]), planes, given[1])

@@ -14,7 +14,7 @@ pub struct Survey<T> {
     pub maximum: Maximum,
     /// The largest stresses in each layer, and in the body below them; empty without layers.
     pub layers: Vec<LayerStress>,
-    /// What was kept of each plane.
+    /// The kept part of each plane.
     pub planes: Vec<T>,
 }
 

@@ -719,7 +719,7 @@ mod tests {
                         sum.iter_mut().zip(at).for_each(|(sum, value)| *sum += share * value);
                     }
                     done = reach;
-                    // What the base does beyond, and the uniform part in the plane.
+                    // The part of the base beyond, and the uniform part in the plane.
                     let rest = -2.0 / period * ((2 * reach + 1) as f64 * period / line.datum).ln();
                     let uniform = 2.0 / period * (long[1] - long[0]);
                     let normal = body.stack.long().normal * 0.5 * pitch[0] * pitch[1] / PI;

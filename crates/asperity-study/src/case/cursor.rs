@@ -178,7 +178,7 @@ impl<'a> Entry<'a> {
     pub(crate) fn table(self) -> Result<Table<'a>> {
         match self.value {
             DeValue::Table(entries) => {
-                // That of an item of an array of tables is in brackets.
+                // The path of an item of an array of tables has brackets.
                 let path = self.path.replace(['[', ']'], "");
                 Ok(Table { document: self.document, path, span: self.span, entries })
             }
