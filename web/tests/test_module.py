@@ -10,7 +10,8 @@ from conftest import ROOT, Failure, assert_close, compared
 CORPUS = ROOT / "crates/asperity-surface/fuzz/corpus"
 # Examples that a browser computes in some seconds; the others take the command minutes.
 EXAMPLES = ["quickstart", "measured", "hertz", "friction", "fretting", "pull-off", "seal", "viscoelastic", "micropitting", "study", "contact-challenge"]
-# The command and the module compute the same contact: where both solve it closely, their numbers are as close.
+# The command and the module compute the same contact: where both solve it closely, and meet the load of a pass as closely, their numbers
+# are within ten times as much.
 SOLVED, CLOSE = 1e-10, 1e-9
 
 
@@ -34,7 +35,7 @@ def test_numbers_are_those_of_the_command(module, asperity, tmp_path, name):
     module("run", case, f"{name}/here", "keep")
     subprocess.run([asperity, "run", path, "--out", tmp_path / "there", "--quiet"], check=True, stderr=subprocess.DEVNULL)
     here, there = (json.loads(text) for text in (module("get", f"{name}/here/summary.json"), (tmp_path / "there/summary.json").read_bytes()))
-    assert_close(compared(here), compared(there), CLOSE)
+    assert_close(compared(here), compared(there), 10 * CLOSE)
     files = {each["name"].removeprefix(f"{name}/here/") for each in module("files", f"{name}/here")}
     written = {str(each.relative_to(tmp_path / "there")) for each in (tmp_path / "there").rglob("*") if each.is_file()}
     # The module draws a figure when it is asked for.
