@@ -8,7 +8,7 @@ use crate::lubrication::{FilmParams, FilmProblem, FilmSolution, FilmSpeeds, Lubr
 use crate::motion::contact::Contact;
 use crate::motion::kinematics::{Motion, Strategy};
 use crate::motion::lubricated_measure::FilmMeasure;
-use crate::motion::moving_film::{HALVINGS, MovingFilm, Place, field_like, mean_speed};
+use crate::motion::moving_film::{Frame, HALVINGS, MovingFilm, Place, field_like};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Stroke;
@@ -25,7 +25,7 @@ pub(super) fn check(pair: &Pair, boundary: Boundary, motion: &Motion, params: &P
     }
     pair.check_lubricated()?;
     params.device.only_processor("a device does not solve films of oil")?;
-    let speed = mean_speed(motion, pair, Stroke::Forth);
+    let speed = Frame::new(motion, pair).mean_speed(motion, Stroke::Forth);
     let refused = if speed.is_nan() {
         "lubricated bodies that pass over each other need a speed"
     } else if speed == 0.0 {
@@ -52,9 +52,10 @@ impl Solver<'_> {
     ) -> Result<Pass> {
         let pitch = pair.pitch();
         let is_overlap = self.motion.strategy == Strategy::Overlap;
-        let place = |index: usize| Place::new(self.motion, pair, &self.positions[index]);
+        let frame = Frame::new(self.motion, pair);
+        let place = |index: usize| frame.place(self.motion, &self.positions[index]);
         let gap_at = |index: usize| place(index).turned_field(&pair.initial_gap(&self.positions[index]));
-        let speed_at = |index: usize| mean_speed(self.motion, pair, self.positions[index].stroke).abs();
+        let speed_at = |index: usize| frame.mean_speed(self.motion, self.positions[index].stroke).abs();
         let last = self.positions.len() - 1;
         let mut begins = None;
         let mut operator = self.operators.on([place(0).columns, pair.lower.width()]);

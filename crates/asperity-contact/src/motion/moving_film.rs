@@ -21,32 +21,59 @@ pub(super) const HALVINGS: usize = 6;
 const OIL: &str = "oil_content";
 const APPROACH: &str = "oil_approach";
 
-/// Mean speed of both surfaces along x in the frame of the film; NaN if it is not known.
-///
-/// In an overlap it is the frame of the shorter body, in which the ends of the contact stay where they are as long as the
-/// bodies overlap as far as they can. It is that of the higher one, such as a ball, if both are as long.
-pub(super) fn mean_speed(motion: &Motion, pair: &Pair, stroke: Stroke) -> MetrePerSecond {
-    let forth = match motion.strategy {
-        Strategy::Shift { speed_lower, speed_upper } => 0.5 * (speed_lower + speed_upper),
-        Strategy::Overlap => {
-            let speed = motion.speed.unwrap_or(f64::NAN);
-            if stays_on_lower(pair) { 0.5 * speed } else { -0.5 * speed }
-        }
-    };
-    stroke.sign() * forth
+/// What a film of oil stays with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Frame {
+    /// The grid, through which both bodies move.
+    Grid,
+    /// The lower body.
+    Lower,
+    /// The upper body.
+    Upper,
 }
 
-fn stays_on_lower(pair: &Pair) -> bool {
-    let height = |body: &Body| {
-        let range = |[least, most]: [f64; 2], z: &f64| [least.min(*z), most.max(*z)];
-        let [least, most] = body.heights.iter().fold([f64::INFINITY, f64::NEG_INFINITY], range);
-        most - least
-    };
-    let [lower, upper] = [&pair.lower, &pair.upper];
-    match lower.columns().cmp(&upper.columns()) {
-        Ordering::Less => true,
-        Ordering::Equal => height(lower) > height(upper),
-        Ordering::Greater => false,
+impl Frame {
+    /// Returns the frame of the film between two bodies.
+    ///
+    /// In an overlap it is the shorter body, on which the ends of the contact stay where they are as long as the bodies
+    /// overlap as far as they can. It is the higher one, such as a ball, if both are as long.
+    pub(super) fn new(motion: &Motion, pair: &Pair) -> Self {
+        if matches!(motion.strategy, Strategy::Shift { .. }) {
+            return Self::Grid;
+        }
+        let height = |body: &Body| {
+            let range = |[least, most]: [f64; 2], z: &f64| [least.min(*z), most.max(*z)];
+            let [least, most] = body.heights.iter().fold([f64::INFINITY, f64::NEG_INFINITY], range);
+            most - least
+        };
+        let [lower, upper] = [&pair.lower, &pair.upper];
+        match lower.columns().cmp(&upper.columns()) {
+            Ordering::Less => Self::Lower,
+            Ordering::Equal if height(lower) > height(upper) => Self::Lower,
+            Ordering::Equal | Ordering::Greater => Self::Upper,
+        }
+    }
+
+    /// Returns the mean speed of both surfaces along x in this frame; NaN if it is not known.
+    pub(super) fn mean_speed(self, motion: &Motion, stroke: Stroke) -> MetrePerSecond {
+        let relative = motion.speed.unwrap_or(f64::NAN);
+        let forth = match (self, motion.strategy) {
+            (_, Strategy::Shift { speed_lower, speed_upper }) => 0.5 * (speed_lower + speed_upper),
+            (Self::Lower, Strategy::Overlap) => 0.5 * relative,
+            (_, Strategy::Overlap) => -0.5 * relative,
+        };
+        stroke.sign() * forth
+    }
+
+    /// Returns where the film lies in this frame at a position.
+    pub(super) fn place(self, motion: &Motion, position: &Position) -> Place {
+        let start = match self {
+            Self::Grid => 0,
+            Self::Lower => position.lower,
+            Self::Upper => position.upper,
+        };
+        let is_reversed = self.mean_speed(motion, position.stroke) < 0.0;
+        Place { columns: position.columns, start, is_reversed }
     }
 }
 
@@ -62,16 +89,6 @@ pub(super) struct Place {
 }
 
 impl Place {
-    pub(super) fn new(motion: &Motion, pair: &Pair, position: &Position) -> Self {
-        let start = match motion.strategy {
-            Strategy::Overlap if stays_on_lower(pair) => position.lower,
-            Strategy::Overlap => position.upper,
-            Strategy::Shift { .. } => 0,
-        };
-        let is_reversed = mean_speed(motion, pair, position.stroke) < 0.0;
-        Self { columns: position.columns, start, is_reversed }
-    }
-
     /// The column of the contact that is this one from the inlet, or the other way round.
     fn turned(&self, column: usize) -> usize {
         if self.is_reversed { self.columns - 1 - column } else { column }

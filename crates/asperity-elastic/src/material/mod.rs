@@ -7,7 +7,7 @@ pub use coating::Coating;
 pub use named::{MATERIALS, NAMES, NamedMaterial};
 
 use crate::error::{Error, Result, check, check_in};
-use crate::units::{Dimension, Pascal};
+use crate::units::{Dimension, Metre, Pascal};
 
 /// An elastic, or elastic–perfectly plastic, isotropic material.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,6 +62,18 @@ impl Material {
     /// Whether the body has layers.
     pub fn is_layered(&self) -> bool {
         !self.layers.is_empty()
+    }
+
+    /// Thickness of all layers together.
+    pub fn thickness(&self) -> Metre {
+        self.layers.iter().map(|layer| layer.thickness).sum()
+    }
+
+    /// Returns the material at the surface, without layers: that of the first layer, or of the body.
+    pub fn at_surface(&self) -> Self {
+        let (young, poisson) =
+            self.layers.first().map_or((self.young, self.poisson), |layer| (layer.young, layer.poisson));
+        Self { young, poisson, hardness: self.hardness, layers: Vec::new() }
     }
 
     /// Plane-strain modulus E/(1 − ν²), without the layers.

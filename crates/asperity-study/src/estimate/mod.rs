@@ -457,7 +457,7 @@ fn thin(name: &str, case: &Case, pitch: [Metre; 2]) -> Option<String> {
     let body = if name == "lower" { &case.lower } else { &case.upper };
     let layers = &body.material.layers;
     let cell = pitch[0].max(pitch[1]);
-    let total = layers.iter().map(|layer| layer.thickness).sum::<Metre>();
+    let total = body.material.thickness();
     // Layers that lie deeper than a cell are not felt as such, nor parts of a layer.
     let thinnest = || {
         let alike = |one: &Coating, other: &Coating| [one.young, one.poisson] == [other.young, other.poisson];
@@ -534,13 +534,9 @@ fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut
 /// this side does not feel these.
 fn dundurs(case: &Case, estimate: &Estimate, side: Metre) -> f64 {
     let bodies = [&case.lower.material, &case.upper.material];
-    let [lower, upper] = bodies.map(|material| match material.layers.first() {
-        Some(layer) => Material { young: layer.young, poisson: layer.poisson, ..Material::clone(material) },
-        None => Material::clone(material),
-    });
+    let [lower, upper] = bodies.map(Material::at_surface);
     let at_surfaces = Compliances::new(&lower, &upper).map_or(0.0, |pair| pair.dundurs());
-    let thickness = |material: &Material| material.layers.iter().map(|layer| layer.thickness).sum::<Metre>();
-    let covered = bodies.into_iter().any(|material| thickness(material) > side);
+    let covered = bodies.into_iter().any(|material| material.thickness() > side);
     if covered || at_surfaces.abs() > estimate.dundurs.abs() { at_surfaces } else { estimate.dundurs }
 }
 

@@ -6,6 +6,7 @@ use crate::case::Case;
 use crate::estimate::{Estimate, STEEP, STRENGTH};
 use asperity_base::grid::Field;
 use asperity_base::units::{Kelvin, Metre, Pascal};
+use asperity_contact::material::composite_modulus;
 use asperity_contact::motion::Pair;
 use asperity_contact::solver::Control;
 
@@ -27,7 +28,7 @@ pub(super) struct Bounds {
     /// The width of a cell, or the depth d at which a wave of the mean length λ = 2π Sq/Sdq of the gap that
     /// loses its summits alone becomes steep by itself: its rms slope is πd/√2λ.
     pub(super) removal: Metre,
-    /// [`STRENGTH`] times E*, for bodies without a coating.
+    /// [`STRENGTH`] times the E* of the materials at the surfaces.
     pub(super) pressure: Pascal,
     /// [`NEAR_PLASTIC_LIMIT`].
     pub(super) hardness: f64,
@@ -47,7 +48,9 @@ impl Bounds {
         let wave = 2.0 * PI * sq / estimate.gap_slope;
         let steep = STEEP * SQRT_2 / PI * wave;
         let [dx, dy] = pair.pitch();
-        let modulus = pair.modulus();
+        let [lower, upper] = [&case.lower, &case.upper].map(|body| body.material.at_surface());
+        // A rigid body on another has layers below.
+        let modulus = composite_modulus(&lower, &upper).unwrap_or(f64::INFINITY);
         let strength = STRENGTH * modulus;
         // A hardness that is not much larger caps the pressure.
         let is_capped = (strength..=2.0 * strength).contains(&pair.min_hardness());
@@ -58,7 +61,7 @@ impl Bounds {
         Self {
             slope: unless(estimate.gap_slope > STEEP, STEEP),
             removal: if steep > 0.0 { steep.min(dx).min(dy) } else { dx.min(dy) },
-            pressure: unless(case.is_coated() || is_capped || modulus < RUBBER, strength),
+            pressure: unless(is_capped || modulus < RUBBER, strength),
             hardness: unless(near, NEAR_PLASTIC_LIMIT),
             temperature: MELTING,
             displacement: LARGE_DISPLACEMENT * longest,

@@ -184,6 +184,18 @@ fn no_solid_is_elastic_above_a_tenth_of_its_modulus() {
     assert!(at_once.is_empty(), "{at_once:?}");
 }
 
+/// A modulus a thousand times too small, of the layer at the surface.
+#[test]
+fn a_layer_is_not_elastic_above_a_tenth_of_its_modulus() {
+    let layered = |young: &str| {
+        let layer = format!("hardness = \"4 GPa\"\ncoating = {{ thickness = \"4 um\", young = \"{young}\", poisson = 0.3 }}");
+        at_rest(&rough(&layer, "mean_pressure = \"100 MPa\"")).1
+    };
+    assert!(layered("300 GPa").is_empty());
+    let at_once = layered("300 MPa");
+    assert!(at_once.iter().any(|warning| warning.contains("above a tenth of E*, 32.97 MPa")), "{at_once:?}");
+}
+
 #[test]
 fn increments_points_and_updates_name_themselves() {
     let stages = rough("", "mean_pressure = \"100 MPa\"\n[friction]\ncoefficient = 0.1\nincrements = 4");

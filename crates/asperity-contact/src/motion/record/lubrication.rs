@@ -30,7 +30,7 @@ columns! {
         /// Largest share of a cell's hardness that its pressure is, above 1 where bodies would yield; 0 of elastic bodies.
         pub hardness_share: f64,
         /// Distance of the inlet from the centre of the contact over that of a fully flooded one, by Hamrock and Dowson
-        /// (1977); unknown unless the gap is a paraboloid with free boundaries.
+        /// (1977); unknown unless the gap is a paraboloid with free boundaries, and where bodies overlap in part.
         #[serde(deserialize_with = "known_or_none")]
         pub inlet_ratio: Option<f64>,
     }
@@ -42,12 +42,12 @@ impl FilmRecord {
     pub(in crate::motion) fn of_pass(films: &[Self]) -> Option<Self> {
         let mean = |value: fn(&Self) -> f64| films.iter().map(value).sum::<f64>() / films.len() as f64;
         let most = |value: fn(&Self) -> f64| films.iter().map(value).fold(0.0, f64::max);
-        let known = films.iter().filter(|film| film.lambda.is_some()).count() as f64;
+        let lambdas: Vec<f64> = films.iter().filter_map(|film| film.lambda).collect();
         films.first()?;
         Some(Self {
             mean_film: mean(|film| film.mean_film),
             min_film: films.iter().map(|film| film.min_film).fold(f64::INFINITY, f64::min),
-            lambda: (known > 0.0).then(|| films.iter().filter_map(|film| film.lambda).sum::<f64>() / known),
+            lambda: (!lambdas.is_empty()).then(|| lambdas.iter().sum::<f64>() / lambdas.len() as f64),
             solid_share: mean(|film| film.solid_share),
             traction_coefficient: mean(|film| film.traction_coefficient),
             cavity_share: mean(|film| film.cavity_share),

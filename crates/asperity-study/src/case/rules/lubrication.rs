@@ -1,10 +1,12 @@
 //! Rules of lubricated bodies.
 
+use std::iter::once;
+
 use super::super::{Body, Case, CounterBody, Layer, Source};
 use super::Rule;
 use super::examples::{AT_ANY_SPEED, GENERATED, OIL, RUBS, SLIDES, SWEEP};
 use asperity_contact::motion::Strategy;
-use asperity_surface::Form;
+use asperity_surface::{Axis, Form};
 
 /// Tables that a film of oil excludes.
 const OTHERS: [&str; 4] = ["sliding", "history", "steady", "adhesion"];
@@ -83,7 +85,7 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "[motion] of lubricated bodies by a shift",
-        with: "a form that moves",
+        with: "a form, curved along x, that moves",
         message: "the form of a lubricated body stands still in a shift: it does not pass through the grid",
         hint: "set its speed to 0 and move the other body; smooth bodies that roll have a steady film, with `sliding` in [lubrication]",
         at: "motion.speed_upper",
@@ -97,7 +99,7 @@ pub(super) const RULES: &[Rule] = &[
             let Strategy::Shift { speed_lower, speed_upper } = tables.motion()?.strategy() else {
                 return None;
             };
-            let moves = |body: &Body, speed: f64| speed != 0.0 && has_form(body);
+            let moves = |body: &Body, speed: f64| speed != 0.0 && is_curved(body);
             let Case { lower, upper, .. } = tables.case;
             match [moves(lower, speed_lower), moves(upper, speed_upper)] {
                 [_, true] => tables.at("motion.speed_upper").or(tables.at("motion")),
@@ -181,21 +183,31 @@ pub(super) const RULES: &[Rule] = &[
     },
 ];
 
-/// Whether the surface of a body is curved as a whole, by a form.
-fn has_form(body: &Body) -> bool {
-    let is_curved = |form: &Form| !matches!(form, Form::Flat | Form::Sinusoid { .. } | Form::Grooves { .. });
-    matches!(&body.topography.source, Source::Form { form, .. } if is_curved(form))
-        || body
-            .topography
-            .plus
-            .iter()
-            .any(|layer| matches!(layer, Layer::Form { form, .. } if is_curved(form)))
+/// Returns the forms of which the surface of a body consists, and `None` for each part of it that is no form.
+fn forms(body: &Body) -> impl Iterator<Item = Option<&Form>> {
+    let first = match &body.topography.source {
+        Source::Form { form, .. } => Some(form),
+        _ => None,
+    };
+    let others = body.topography.plus.iter().map(|layer| match layer {
+        Layer::Form { form } => Some(form),
+        Layer::Generate { .. } => None,
+    });
+    once(first).chain(others)
+}
+
+/// Whether a form has many crests.
+fn has_waves(form: &Form) -> bool {
+    matches!(form, Form::Sinusoid { .. } | Form::Grooves { .. })
+}
+
+/// Whether the surface of a body is curved as a whole along x, by a form.
+fn is_curved(body: &Body) -> bool {
+    let is_straight = |form: &Form| matches!(form, Form::Flat | Form::Cylinder { axis: Axis::X, .. });
+    forms(body).flatten().any(|form| !is_straight(form) && !has_waves(form))
 }
 
 /// Whether a film changes where the body moves on: unless its form may turn with it.
 fn is_rough(body: &Body) -> bool {
-    let has_waves = |form: &Form| matches!(form, Form::Sinusoid { .. } | Form::Grooves { .. });
-    let is_smooth = |source: &Source| matches!(source, Source::Form { form, .. } if !has_waves(form));
-    let is_smooth_layer = |layer: &Layer| matches!(layer, Layer::Form { form, .. } if !has_waves(form));
-    !is_smooth(&body.topography.source) || !body.topography.plus.iter().all(is_smooth_layer)
+    forms(body).any(|form| form.is_none_or(has_waves))
 }
