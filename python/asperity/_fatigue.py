@@ -120,7 +120,8 @@ def fatigue(
     poisson : float, optional
         Poisson's ratio of the body, 0 to 0.5. Give it or a `material`.
     material : Material, optional
-        Material of the body.
+        Material of the body, with its layers. The limits are those of the material at the depths that are asked for; at an interface
+        that is the one below.
     friction : float or sequence of float
         Shear traction along +x on the lower body over the pressure: one number, or one for each position.
     boundary : str or pair of str
@@ -164,10 +165,7 @@ def fatigue(
         raise bad_input("friction", f"'friction' has the shape {ratio.shape}, expected a number, or one for each of {len(found)} positions")
     ratio = np.broadcast_to(ratio, len(found)) * (-1.0 if body == "upper" else 1.0)
     planes = _depths(depths)
-    _, own, layers = _constants(poisson, material)
-    if layers:
-        raise bad_input("material", "the limits of fatigue are those of one material, and a body with layers has several")
-    given = (found, lengths("pitch", pitch), ratio.tolist(), edges(boundary), own)
+    given = (found, lengths("pitch", pitch), ratio.tolist(), edges(boundary), _constants(poisson, material))
     limits = (quantity("torsion", torsion, "pressure"), quantity("tension", tension, "pressure"))
     fields, criterion = _core.fatigue(given, limits, planes, _case.threads(threads))
     return Fatigue(fields, (criterion[0], criterion[1]), planes, given[1])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from typing import Any
 
 import asperity as asp
 import numpy as np
@@ -69,6 +70,16 @@ def test_the_upper_body_is_the_mirror_image():
     one = asp.fatigue(p, 1e-6, pitch="1 um", friction=0.2, **LIMITS)
     other = asp.fatigue(p[:, ::-1], 1e-6, pitch="1 um", friction=[0.2] * len(p), body="upper", **LIMITS)
     assert other.f[:, ::-1] == pytest.approx(one.f, rel=1e-7)
+
+
+def test_a_body_below_layers() -> None:
+    def steel(young: str) -> asp.Material:
+        return asp.Material("210 GPa", 0.3, coating=asp.Coating("1 um", young, 0.3))
+
+    given: dict[str, Any] = {"pitch": "1 um", "torsion": "350 MPa", "tension": "600 MPa"}
+    plain = asp.fatigue(pressures(), ["1 um", "2 um"], poisson=0.3, **given)
+    assert asp.fatigue(pressures(), ["1 um", "2 um"], material=steel("210 GPa"), **given).f == pytest.approx(plain.f, rel=1e-6)
+    assert asp.fatigue(pressures(), "1 um", material=steel("800 GPa"), **given).f.max() < 0.8 * plain.f[0].max()
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 //! Fatigue of a body that contacts pass over.
 
 use asperity::fatigue::{AtDepth, Basquin, DangVan, StressHistory, critical_depths};
+use asperity::kernel::Stack;
 use asperity::motion::Watch;
 use asperity::ndarray::{Array3, Axis, Ix3};
 use asperity::subsurface::Tractions;
@@ -9,11 +10,12 @@ use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray3};
 use pyo3::prelude::*;
 
 use crate::arrays::{boundary, ok};
+use crate::reference::{Constants, material};
 use crate::work;
 
 /// A pass: the pressure at each position `[it, ix, iy]`, the pitch, the ratio of the shear along x to the
-/// pressure at each position, the boundary along both axes, and Poisson's ratio.
-type Pass<'py> = (PyReadonlyArray3<'py, f64>, [f64; 2], Vec<f64>, [String; 2], f64);
+/// pressure at each position, the boundary along both axes, and elastic constants.
+type Pass<'py> = (PyReadonlyArray3<'py, f64>, [f64; 2], Vec<f64>, [String; 2], Constants);
 
 /// Arrays `[iz, ix, iy]`.
 type Planes<'py> = Vec<Bound<'py, PyArray3<f64>>>;
@@ -28,7 +30,8 @@ pub(crate) fn fatigue<'py>(
     depths: Vec<f64>,
     threads: usize,
 ) -> PyResult<(Planes<'py>, [f64; 2])> {
-    let (pressures, pitch, friction, edges, poisson) = pass_;
+    let (pressures, pitch, friction, edges, constants) = pass_;
+    let material = ok(material(constants), py)?;
     let pressures = pressures.as_array().as_standard_layout().into_owned();
     let (positions, nx, ny) = pressures.dim();
     let grid = ok(Grid::new([nx, ny], pitch), py)?;
@@ -41,7 +44,9 @@ pub(crate) fn fatigue<'py>(
             Tractions { pressure, shear: [shear, None] }
         };
         let stop = || watch.stop();
-        let history = StressHistory::new(grid, boundary, poisson, positions, at).until(&stop);
+        let history = StressHistory::new(grid, boundary, material.poisson, positions, at).until(&stop);
+        let history =
+            if material.is_layered() { history.with_layers(Stack::new(&material)) } else { history };
         history.dang_van(&criterion, &depths)
     })?;
     let together = |field: fn(&AtDepth) -> &Field| {

@@ -160,7 +160,7 @@ impl Subsurface {
 
     /// Returns the stress at a `depth` in a layer or at its faces; the body below all layers is the last one.
     pub fn plane_in(&self, layer: usize, depth: Metre) -> Plane {
-        let inside = self.stack.as_ref().map(|stack| self.inside(stack, layer, depth));
+        let inside = self.inside(layer, depth);
         let mut stress = Component::ALL.map(|component| self.component(component, depth, inside.as_ref()));
         if let Some(residual) = &self.residual {
             stress
@@ -177,19 +177,21 @@ impl Subsurface {
         parallel::tasks(depths, |&depth| look(self.plane(depth)))
     }
 
-    fn inside(&self, stack: &Stack, layer: usize, depth: Metre) -> Inside {
+    /// Returns the stress per unit of each traction, if the body has layers.
+    fn inside(&self, layer: usize, depth: Metre) -> Option<Inside> {
+        let stack = self.stack.as_ref()?;
         if !self.boundary.leaves_mean_free() {
-            return self.inside_cells(stack, layer, depth);
+            return Some(self.inside_cells(stack, layer, depth));
         }
         let [nx, ny] = self.fft.shape();
-        Inside::Waves(Array2::from_shape_fn([nx / 2 + 1, ny / 2 + 1], |(k, l)| {
+        Some(Inside::Waves(Array2::from_shape_fn([nx / 2 + 1, ny / 2 + 1], |(k, l)| {
             let q = angular_frequency(k, nx, self.grid.pitch[0]).hypot(angular_frequency(
                 l,
                 ny,
                 self.grid.pitch[1],
             ));
             stack.stress(q, layer, depth)
-        }))
+        })))
     }
 
     fn inside_cells(&self, stack: &Stack, layer: usize, depth: Metre) -> Inside {

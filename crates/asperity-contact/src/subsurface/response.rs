@@ -4,9 +4,9 @@ use std::sync::OnceLock;
 
 use asperity_transforms::num_complex::Complex64;
 
-use super::{Spectrum, Subsurface, Tractions, is_imaginary};
+use super::{Inside, Spectrum, Subsurface, Tractions, is_imaginary};
 use crate::grid::{Field, Grid};
-use crate::kernel::Traction;
+use crate::kernel::{Stack, Traction};
 use crate::operator::Boundary;
 use crate::stress::Component;
 use crate::units::Metre;
@@ -18,6 +18,8 @@ use crate::units::Metre;
 pub struct StressAtDepth {
     body: Subsurface,
     depth: Metre,
+    /// Stress per unit of each traction, of a body with layers.
+    inside: Option<Inside>,
     /// Transforms of the influence of the pressure and of the shear along x and y on each component, each
     /// computed when it is first needed.
     influence: [OnceLock<[Spectrum; 6]>; 3],
@@ -27,7 +29,14 @@ impl StressAtDepth {
     /// Creates the stress at `depth` ≥ 0 of a body with Poisson's ratio `poisson`.
     pub fn new(grid: Grid, boundary: Boundary, poisson: f64, depth: Metre) -> Self {
         let body = Subsurface::new(grid, boundary, poisson, &Tractions::frictionless(grid.zeros()));
-        Self { body, depth, influence: Default::default() }
+        Self { body, depth, inside: None, influence: Default::default() }
+    }
+
+    /// Gives the body layers. At an interface the stress is that below, but that above on a rigid base.
+    pub fn with_layers(self, stack: Stack) -> Self {
+        let body = self.body.with_layers(stack);
+        let inside = body.inside(body.layer_at(self.depth), self.depth);
+        Self { body, inside, ..self }
     }
 
     /// The grid of the plane.
@@ -71,7 +80,7 @@ impl StressAtDepth {
         Component::ALL.map(|component| {
             let imaginary = is_imaginary(traction, component);
             let pair = if imaginary { [None, Some(traction)] } else { [Some(traction), None] };
-            let mut symbol = self.body.symbol(component, pair, self.depth, None);
+            let mut symbol = self.body.symbol(component, pair, self.depth, self.inside.as_ref());
             // Two real tables may share a transform, so that only one part of it belongs to this traction.
             let part = |value: Complex64| {
                 if imaginary { Complex64::new(0.0, value.im) } else { Complex64::new(value.re, 0.0) }
@@ -85,6 +94,7 @@ impl StressAtDepth {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::material::{Coating, Material};
     use crate::operator::Edge;
 
     #[test]
@@ -95,13 +105,24 @@ mod tests {
             for (depth, x, y) in [(0.0, 0.0, 0.1), (0.4, -0.3, 0.0), (2.0, 0.2, -0.4)] {
                 let shear = [x, y].map(|friction| Some(friction * &pressure));
                 let tractions = Tractions { shear, pressure: pressure.clone() };
-                let stress = StressAtDepth::new(grid, boundary, 0.3, depth).under(&tractions);
-                let plane = Subsurface::new(grid, boundary, 0.3, &tractions).plane(depth);
-                for (found, expected) in stress.iter().flatten().zip(plane.stress.iter().flatten()) {
-                    assert!(
-                        (found - expected).abs() < 1e-12 * 7.0,
-                        "{boundary:?} {depth}: {found} {expected}"
-                    );
+                let at_depth = || StressAtDepth::new(grid, boundary, 0.3, depth);
+                let body = || Subsurface::new(grid, boundary, 0.3, &tractions);
+                let coated =
+                    Material::elastic(1.0, 0.3).unwrap().coated(Coating::new(0.4, 5.0, 0.2).unwrap());
+                let layers = || Stack::new(&coated);
+                for (stress, plane) in [
+                    (at_depth().under(&tractions), body().plane(depth)),
+                    (
+                        at_depth().with_layers(layers()).under(&tractions),
+                        body().with_layers(layers()).plane(depth),
+                    ),
+                ] {
+                    for (found, expected) in stress.iter().flatten().zip(plane.stress.iter().flatten()) {
+                        assert!(
+                            (found - expected).abs() < 1e-12 * 7.0,
+                            "{boundary:?} {depth}: {found} {expected}"
+                        );
+                    }
                 }
             }
         }

@@ -1,6 +1,9 @@
 //! Dang Van's criterion: closed forms, invariances, and histories of random contacts one by one.
 
+use approx::assert_abs_diff_eq;
 use asperity_contact::fatigue::{DangVan, StressHistory, risk};
+use asperity_contact::kernel::Stack;
+use asperity_contact::material::{Coating, Material};
 use asperity_contact::operator::{Boundary, Edge};
 use asperity_contact::reference::HertzLine;
 use asperity_contact::stress::Stress;
@@ -111,6 +114,34 @@ fn random_passes_are_those_of_their_stresses_one_by_one() {
                 assert!((found.shear_amplitude[cell] - 0.5 * range).abs() < 1e-12);
             }
         }
+    }
+}
+
+/// Layers like the body below them change nothing; a stiffer one bears the contact in place of the body.
+#[test]
+fn a_body_below_layers_sees_the_stress_of_a_body_below_layers() {
+    let grid = Grid::new([12, 6], [1.0, 1.5]).unwrap();
+    let ridge = |at: usize| {
+        let pressure = Field::from_shape_fn(grid.shape, |(i, j)| if i == at && j != 2 { 1.0 } else { 0.0 });
+        Tractions { shear: [Some(0.2 * &pressure), None], pressure }
+    };
+    let body = Material::elastic(2.0, 0.3).unwrap();
+    let depths = [1.25, 2.5];
+    for boundary in [Boundary::FREE, Boundary::PERIODIC, Boundary([Edge::Free, Edge::Periodic])] {
+        let plain = || StressHistory::new(grid, boundary, 0.3, 12, ridge);
+        let layered = |young: f64| {
+            let layers = [0.5, 0.75].map(|thickness| Coating::new(thickness, young, 0.3).unwrap()).to_vec();
+            plain()
+                .with_layers(Stack::new(&body.clone().layered(layers)))
+                .dang_van(&criterion(), &depths)
+                .unwrap()
+        };
+        let expected = plain().dang_van(&criterion(), &depths).unwrap();
+        for (found, expected) in layered(2.0).iter().zip(&expected) {
+            assert_abs_diff_eq!(found.f, expected.f, epsilon = 1e-7);
+        }
+        let most = |f: &Field| f.iter().copied().fold(0.0, f64::max);
+        assert!(most(&layered(20.0)[0].f) < 0.8 * most(&expected[0].f), "{boundary:?}");
     }
 }
 

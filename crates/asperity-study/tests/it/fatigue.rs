@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use asperity_base::Error;
 use asperity_contact::Field;
 use asperity_contact::fatigue::{Basquin, Fatigue, FatigueRecord, OnBody, advance_damage};
+use asperity_contact::material::Coating;
 use asperity_contact::motion::{PassRecord, Progress, Watch};
 use asperity_contact::wear::WearRate;
 use asperity_contact::with::Capability;
@@ -62,9 +63,9 @@ fn bodies_of_a_motion_tire_pass_after_pass_and_go_on_to_the_same_bits() {
     let expected: Vec<_> =
         (1..=3).flat_map(|pass| [(Some(pass), OnBody::Lower), (Some(pass), OnBody::Upper)]).collect();
     assert_eq!(places, expected);
-    assert!(
-        rows.iter().all(|row| row.over_limit > 0.1 && row.critical.critical_wear >= 0.0 && row.depth <= 4e-6)
-    );
+    assert!(rows.iter().all(|row| row.over_limit > 0.1
+        && row.critical.critical_wear.is_some_and(|wear| wear >= 0.0)
+        && row.depth <= 4e-6));
     // The same stress, with a limit that is larger by more than the weight of the hydrostatic stress makes up
     // for.
     assert!(rows[0].over_limit > rows[1].over_limit);
@@ -110,7 +111,7 @@ fn damage_adds_up_over_passes_as_miner_has_it() {
     let case = case(3, "");
     let (_, rows, results, _folder) = run(&case);
     let law = Basquin::new(10.0, 2e6, false).unwrap();
-    let depths = case.with.fatigue.as_ref().unwrap().depths([1e-6; 2]);
+    let depths = case.with.fatigue.as_ref().unwrap().depths([1e-6; 2], 0.0);
     let shape = [24, 16];
     let mut suffered = vec![vec![0.0; 4]; shape[0] * shape[1]];
     let mut worn_before = Field::zeros(shape);
@@ -133,12 +134,44 @@ fn damage_adds_up_over_passes_as_miner_has_it() {
         let expected = pass as f64 + (1.0 - row.damage) / row.damage_of_pass;
         assert!((life / expected - 1.0).abs() < 1e-3, "{life} {expected}");
         assert!(
-            row.critical.unsaved_share.is_some_and(|share| share <= row.critical.critical_share)
+            row.critical.unsaved_share.is_some_and(|share| Some(share) <= row.critical.critical_share)
                 && row.pitted_share.is_none()
         );
     }
     // The upper body does not wear.
     assert!(rows[1].critical.unsaved_share.is_none());
+}
+
+/// The limits are those of the body below the layers, which wear takes nothing from.
+#[test]
+fn a_body_below_layers_tires_at_its_own_depths() {
+    let mut covered = case(2, "");
+    let layer = |young: f64| vec![Coating::new(1.5e-6, young, 0.3).unwrap()];
+    covered.lower.material.layers = layer(210e9);
+    let of = |case: &Case| {
+        let (_, rows, results, folder) = run(case);
+        let [lower, upper] = [rows[2].clone(), rows[3].clone()];
+        (lower, upper, results, folder)
+    };
+    let (alike, upper, results, _folder) = of(&covered);
+    let (_, bare, ..) = of(&case(2, ""));
+    assert!((upper.over_limit / bare.over_limit - 1.0).abs() < 1e-6);
+    assert!(
+        alike.depth >= 1.5e-6
+            && alike.critical.critical_wear.is_none()
+            && alike.critical.critical_share.is_none()
+    );
+    // Damage of both passes, from which wear takes nothing.
+    let each = alike.damage_of_pass;
+    assert!((alike.damage / each - 2.0).abs() < 1e-2, "{} {each}", alike.damage);
+    let maps = results.observed_fields("fatigue", 2).unwrap();
+    assert!(maps.read("critical_wear_lower").is_err() && maps.read("critical_wear_upper").is_ok());
+    let section = maps.read("over_limit_section_lower").unwrap().into_field().unwrap();
+    // The layer has three eighths of the largest depth, 36 of 96 rows.
+    assert!((0..96).all(|k| section[[0, k]].is_nan() == (k < 36)));
+    // A stiff layer keeps the stress from the body.
+    covered.lower.material.layers = layer(600e9);
+    assert!(of(&covered).0.over_limit < 0.95 * alike.over_limit);
 }
 
 #[test]

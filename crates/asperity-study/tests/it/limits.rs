@@ -188,7 +188,9 @@ fn no_solid_is_elastic_above_a_tenth_of_its_modulus() {
 #[test]
 fn a_layer_is_not_elastic_above_a_tenth_of_its_modulus() {
     let layered = |young: &str| {
-        let layer = format!("hardness = \"4 GPa\"\ncoating = {{ thickness = \"4 um\", young = \"{young}\", poisson = 0.3 }}");
+        let layer = format!(
+            "hardness = \"4 GPa\"\ncoating = {{ thickness = \"4 um\", young = \"{young}\", poisson = 0.3 }}"
+        );
         at_rest(&rough(&layer, "mean_pressure = \"100 MPa\"")).1
     };
     assert!(layered("300 GPa").is_empty());

@@ -19,14 +19,16 @@ pub(super) const OF_CYCLE: &str = "wear_of_pass";
 const MUCH: f64 = 0.1;
 
 columns! {
-    /// The critical wear of a body: columns of `fatigue.csv`.
-    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+    /// The critical wear of a body: columns of `fatigue.csv`; unknown of a body below layers, which does not wear.
+    #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct Critical {
-        /// Largest wear of a pass or cycle below which a column fails.
-        pub critical_wear: Metre,
-        /// Share of the columns that fail unless they wear by more than a tenth of this.
-        pub critical_share: f64,
+        /// Largest wear of a pass or cycle below which a column fails; unknown of a body below layers.
+        #[serde(deserialize_with = "known_or_none")]
+        pub critical_wear: Option<Metre>,
+        /// Share of the columns that fail unless they wear by more than a tenth of this; unknown of a body below layers.
+        #[serde(deserialize_with = "known_or_none")]
+        pub critical_share: Option<f64>,
         /// Share of the columns that are among these and wear by less than they need; unknown without wear.
         #[serde(deserialize_with = "known_or_none")]
         pub unsaved_share: Option<f64>,
@@ -75,8 +77,8 @@ pub(super) fn of_body(body: &Body, needed: Field) -> (Critical, Vec<(&'static st
     });
     let much = share(needed.iter().filter(|needed| is_much(**needed)).count());
     let columns = Critical {
-        critical_wear: most,
-        critical_share: if most > 0.0 { much } else { 0.0 },
+        critical_wear: Some(most),
+        critical_share: Some(if most > 0.0 { much } else { 0.0 }),
         unsaved_share: unsaved,
     };
     let lacking = worn.map(|worn| ("lacking_wear", (&needed - worn).mapv(|lacking| lacking.max(0.0))));
@@ -108,8 +110,9 @@ pub(super) const fn lacking<R>(body: usize) -> Map<R> {
 impl Critical {
     /// Says from which pass or `cycle` of a life on the body fails, and what saves it.
     pub(super) fn outlook(&self, life: f64, cycle: &str) -> String {
-        let wear = format(self.critical_wear, Dimension::Length);
         let life = format_number(life.max(1.0).round());
+        let Some(wear) = self.critical_wear else { return format!("it fails in {cycle} {life}.") };
+        let wear = format(wear, Dimension::Length);
         let saved = match self.unsaved_share {
             Some(0.0) => " Everywhere it wears faster.".to_owned(),
             Some(share) => format!(" On {} of the surface it is.", percent(share)),
@@ -118,17 +121,18 @@ impl Critical {
         format!("it fails from {cycle} {life} on where wear is below {wear} a {cycle}.{saved}")
     }
 
-    /// Returns the line of a body, whose wear is that of a pass or a `cycle`.
-    pub(super) fn line(&self, body: &str, cycle: &str) -> Line {
-        Line::new(
+    /// Returns the line of a body, whose wear is that of a pass or a `cycle`; `None` below layers.
+    pub(super) fn line(&self, body: &str, cycle: &str) -> Option<Line> {
+        let (wear, share) = self.critical_wear.zip(self.critical_share)?;
+        Some(Line::new(
             format!("wear that saves it, {body}"),
             format!(
                 "{} a {cycle}; {} of the area needs a tenth of it or more{}",
-                format(self.critical_wear, Dimension::Length),
-                percent(self.critical_share),
+                format(wear, Dimension::Length),
+                percent(share),
                 self.unsaved_share
                     .map_or(String::new(), |share| format!(", {} has less than it needs", percent(share)))
             ),
-        )
+        ))
     }
 }

@@ -6,6 +6,7 @@ use super::ball::{Point, RIM, less, smallest_ball, squared};
 use super::criterion::{DangVan, max_shear};
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::{Field, Grid};
+use crate::kernel::Stack;
 use crate::operator::Boundary;
 use crate::stress::Stress;
 use crate::subsurface::{StressAtDepth, Tractions};
@@ -30,6 +31,7 @@ pub struct StressHistory<'a, F> {
     grid: Grid,
     boundary: Boundary,
     poisson: f64,
+    stack: Option<Stack>,
     contacts: usize,
     tractions: F,
     stop: Option<&'a (dyn Fn() -> bool + Sync)>,
@@ -139,7 +141,13 @@ impl DangVan {
 impl<'a, F: Fn(usize) -> Tractions + Sync> StressHistory<'a, F> {
     /// Creates the history of a body with Poisson's ratio `poisson`.
     pub fn new(grid: Grid, boundary: Boundary, poisson: f64, contacts: usize, tractions: F) -> Self {
-        Self { grid, boundary, poisson, contacts, tractions, stop: None }
+        Self { grid, boundary, poisson, stack: None, contacts, tractions, stop: None }
+    }
+
+    /// Gives the body layers.
+    #[must_use]
+    pub fn with_layers(self, stack: Stack) -> Self {
+        Self { stack: Some(stack), ..self }
     }
 
     /// Ends with [`Error::Interrupted`] as soon as `stop` is true.
@@ -176,7 +184,11 @@ impl<'a, F: Fn(usize) -> Tractions + Sync> StressHistory<'a, F> {
     }
 
     fn at(&self, weight: f64, depth: Metre) -> Result<AtDepth> {
-        let at_depth = StressAtDepth::new(self.grid, self.boundary, self.poisson, depth);
+        let plain = StressAtDepth::new(self.grid, self.boundary, self.poisson, depth);
+        let at_depth = match &self.stack {
+            Some(stack) => plain.with_layers(stack.clone()),
+            None => plain,
+        };
         let bytes = 48.0 * (self.contacts * self.grid.cells()) as f64;
         let mut kept: Vec<[Field; 6]> = Vec::new();
         let mut cells: Vec<Grown> = Vec::new();

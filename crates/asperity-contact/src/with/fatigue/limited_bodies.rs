@@ -2,6 +2,7 @@
 
 use super::{AtDepth, Basquin, DangVan, Fatigue, StressHistory};
 use crate::error::Result;
+use crate::kernel::Stack;
 use crate::motion::{LoadCycle, Pair};
 use crate::operator::Boundary;
 use crate::units::Metre;
@@ -12,8 +13,6 @@ use crate::with::Given;
 pub(super) struct LimitedBodies {
     pub(super) fatigue: Fatigue,
     pub(super) boundary: Boundary,
-    /// The depths, ascending.
-    pub(super) depths: Vec<Metre>,
     /// The bodies that have limits, lower one first.
     bodies: [Option<Limited>; 2],
 }
@@ -22,6 +21,10 @@ pub(super) struct LimitedBodies {
 #[derive(Debug)]
 pub(super) struct Limited {
     poisson: f64,
+    /// Its layers, whose fatigue is not looked at.
+    stack: Option<Stack>,
+    /// The depths, ascending.
+    pub(super) depths: Vec<Metre>,
     pub(super) criterion: DangVan,
     pub(super) damage: Basquin,
     /// Number of depths to which material breaks out.
@@ -32,27 +35,36 @@ pub(super) struct Limited {
     pub(super) endurance: bool,
 }
 
+impl Limited {
+    /// Whether layers lie on the material whose limits are known: it is not worn, and does not come nearer to the surface.
+    pub(super) fn is_covered(&self) -> bool {
+        self.stack.is_some()
+    }
+}
+
 impl LimitedBodies {
     /// Reads the limits of the bodies.
     ///
     /// # Errors
     /// The reason why they are not accepted.
     pub(super) fn new(fatigue: &Fatigue, given: &Given<'_>) -> Result<Self> {
-        let depths = fatigue.depths(given.pair.pitch());
         let limited = |index: usize| {
             let body = &given.surroundings.bodies[index];
             let Some(limits) = body.properties.fatigue.as_ref() else { return Ok(None) };
+            let depths = fatigue.depths(given.pair.pitch(), body.material.thickness());
             Ok(Some(Limited {
                 poisson: body.material.poisson,
+                stack: body.material.is_layered().then(|| Stack::new(&body.material)),
                 criterion: limits.criterion()?,
                 damage: limits.damage()?,
                 pitting: depths.iter().take_while(|depth| **depth <= limits.pit_depth).count(),
                 risk: limits.risk,
                 endurance: limits.endurance,
+                depths,
             }))
         };
         let bodies = [limited(0)?, limited(1)?];
-        Ok(Self { fatigue: fatigue.clone(), boundary: given.surroundings.boundary, bodies, depths })
+        Ok(Self { fatigue: fatigue.clone(), boundary: given.surroundings.boundary, bodies })
     }
 
     /// The bodies with limits, each with its index.
@@ -73,8 +85,13 @@ impl LimitedBodies {
         let grid = [pair.lower_grid(), pair.upper_grid()][index];
         let every = self.fatigue.every;
         let tractions = |number: usize| cycle.tractions(number * every, pair, index);
-        StressHistory::new(grid, self.boundary, body.poisson, cycle.contacts().div_ceil(every), tractions)
-            .until(&|| cycle.stop())
-            .dang_van(&body.criterion, &self.depths)
+        let stop = || cycle.stop();
+        let contacts = cycle.contacts().div_ceil(every);
+        let history = StressHistory::new(grid, self.boundary, body.poisson, contacts, tractions).until(&stop);
+        let history = match &body.stack {
+            Some(stack) => history.with_layers(stack.clone()),
+            None => history,
+        };
+        history.dang_van(&body.criterion, &body.depths)
     }
 }

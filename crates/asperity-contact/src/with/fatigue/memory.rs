@@ -35,8 +35,9 @@ pub(super) mod states {
 
 impl Damage {
     /// Changes the damage of a body, and returns the depth that breaks out of each of its columns.
-    fn age(&self, limited: &Limited, body: &mut Body, cycles: f64, worn: &Field) -> Field {
-        let layers = self.0.depths.len();
+    fn age(limited: &Limited, body: &mut Body, cycles: f64, worn: &Field) -> Field {
+        let depths = &limited.depths;
+        let layers = depths.len();
         let mut damage: Vec<Field> = (0..layers).map(|k| taken(body, &states::damage(k))).collect();
         let of_cycle: Vec<&Field> = (0..layers).map(|k| &body.state[&states::over_limit(k)].values).collect();
         let mut lost = Field::zeros(body.heights.raw_dim());
@@ -47,8 +48,9 @@ impl Damage {
             for k in 0..layers {
                 (column[k], each[k]) = (damage[k][cell], share * limited.damage.damage(of_cycle[k][cell]));
             }
-            advance_damage(&self.0.depths, &mut column, &each, times, worn[cell].max(0.0) / times);
-            *lost = pit(&self.0.depths, &mut column, limited.pitting);
+            let worn = if limited.is_covered() { 0.0 } else { worn[cell].max(0.0) };
+            advance_damage(depths, &mut column, &each, times, worn / times);
+            *lost = pit(depths, &mut column, limited.pitting);
             (0..layers).for_each(|k| damage[k][cell] = column[k]);
         }
         for (k, values) in damage.into_iter().enumerate() {
@@ -101,14 +103,16 @@ impl Memory for Damage {
                 let values = Field::zeros(body.heights.raw_dim());
                 body.state.entry(name).or_insert(State { unit: unit.to_owned(), values });
             };
-            for k in 0..self.0.depths.len() {
+            for k in 0..limited.depths.len() {
                 add(states::over_limit(k), "1");
                 add(states::damage(k), "1");
             }
             if limited.pitting > 0 {
                 add(states::PITTED.to_owned(), "m");
             }
-            critical::prepare(body);
+            if !limited.is_covered() {
+                critical::prepare(body);
+            }
         }
     }
 
@@ -163,7 +167,7 @@ impl Memory for Damage {
         let mut lost = [&pair.lower, &pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));
         for (index, limited) in self.0.limited() {
             let body = body_of(pair, index);
-            lost[index] = self.age(limited, body, cycles, &worn[index]);
+            lost[index] = Self::age(limited, body, cycles, &worn[index]);
         }
         lost
     }

@@ -5,7 +5,7 @@ use ndarray::{Array3, Axis};
 use super::limited_bodies::{Limited, LimitedBodies};
 use super::memory::states;
 use super::smooth::Smooth;
-use super::{Fatigue, FatigueRecord, OnBody, critical, critical_depths};
+use super::{Critical, Fatigue, FatigueRecord, OnBody, critical, critical_depths};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::motion::{Body, CycleReport, ObservedContact};
@@ -34,7 +34,8 @@ impl FatigueObserver {
         (body, grid): (&Body, Grid),
         report: &CycleReport<'_>,
     ) -> Result<(FatigueRecord, Vec<BodyField>)> {
-        let LimitedBodies { fatigue, boundary, depths, .. } = &self.bodies;
+        let LimitedBodies { fatigue, boundary, .. } = &self.bodies;
+        let depths = &limited.depths;
         let states = |name: fn(usize) -> String| -> Vec<&Field> {
             (0..depths.len()).map(|k| &body.state[&name(k)].values).collect()
         };
@@ -44,7 +45,11 @@ impl FatigueObserver {
             |fields: &[&Field]| Array3::from_shape_fn((depths.len(), nx, ny), |(k, i, j)| fields[k][[i, j]]);
         let (over, suffered) = (all(&of_cycle), all(&so_far));
         let each = over.mapv(|over| limited.damage.damage(over));
-        let (critical, of_critical) = critical::of_body(body, critical_depths(depths, &each));
+        let (critical, of_critical) = if limited.is_covered() {
+            (Critical::default(), Vec::new())
+        } else {
+            critical::of_body(body, critical_depths(depths, &each))
+        };
         let most = |values: &Array3<f64>| {
             values.fold_axis(Axis(0), f64::NEG_INFINITY, |most, value| most.max(*value))
         };
@@ -104,7 +109,7 @@ impl FatigueObserver {
         let name = ["lower", "upper"][index];
         let field =
             |what: &str, unit, grid, values| BodyField { name: format!("{what}_{name}"), unit, grid, values };
-        let (in_depth, section) = self.section(&of_cycle, grid, place.2);
+        let (in_depth, section) = section(limited, &of_cycle, grid, place.2);
         let mut fields = vec![
             field("over_limit", "1", grid, most(&over)),
             field("over_limit_section", "1", in_depth, section),
@@ -113,25 +118,28 @@ impl FatigueObserver {
         fields.extend(of_critical.into_iter().map(|(what, values)| field(what, "m", grid, values)));
         Ok((row, fields))
     }
+}
 
-    /// Returns f over its limit below a row of cells, linear between the depths and evenly spaced.
-    fn section(&self, over_limit: &[&Field], grid: Grid, row: usize) -> (Grid, Field) {
-        /// Rows of cells of a section.
-        const ROWS: usize = 96;
-        let depths = &self.bodies.depths;
-        let step = depths[depths.len() - 1] / ROWS as f64;
-        let values = Field::from_shape_fn([grid.shape[0], ROWS], |(i, k)| {
-            let depth = (k as f64 + 0.5) * step;
-            let below = depths.partition_point(|z| *z <= depth).min(depths.len() - 1);
-            let above = below.saturating_sub(1);
-            let share = match depths[below] - depths[above] {
-                0.0 => 0.0,
-                apart => ((depth - depths[above]) / apart).clamp(0.0, 1.0),
-            };
-            (1.0 - share) * over_limit[above][[i, row]] + share * over_limit[below][[i, row]]
-        });
-        (Grid { shape: [grid.shape[0], ROWS], pitch: [grid.pitch[0], step] }, values)
-    }
+/// Returns f over its limit below a row of cells, linear between the depths and evenly spaced; NaN in layers.
+fn section(limited: &Limited, over_limit: &[&Field], grid: Grid, row: usize) -> (Grid, Field) {
+    /// Rows of cells of a section.
+    const ROWS: usize = 96;
+    let depths = &limited.depths;
+    let step = depths[depths.len() - 1] / ROWS as f64;
+    let values = Field::from_shape_fn([grid.shape[0], ROWS], |(i, k)| {
+        let depth = (k as f64 + 0.5) * step;
+        if limited.is_covered() && depth < depths[0] {
+            return f64::NAN;
+        }
+        let below = depths.partition_point(|z| *z <= depth).min(depths.len() - 1);
+        let above = below.saturating_sub(1);
+        let share = match depths[below] - depths[above] {
+            0.0 => 0.0,
+            apart => ((depth - depths[above]) / apart).clamp(0.0, 1.0),
+        };
+        (1.0 - share) * over_limit[above][[i, row]] + share * over_limit[below][[i, row]]
+    });
+    (Grid { shape: [grid.shape[0], ROWS], pitch: [grid.pitch[0], step] }, values)
 }
 
 impl Observer for FatigueObserver {

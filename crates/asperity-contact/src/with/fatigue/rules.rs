@@ -1,13 +1,13 @@
 //! The rules of fatigue.
 
 use super::Fatigue;
-use crate::with::{Rule, Surroundings};
+use crate::with::{BodyConstants, Rule, Surroundings};
 
 const FATIGUE: &str = r#"fatigue = { to = "8 um" }"#;
 const LIMITS: &str = r#"lower.fatigue = { torsion = "350 MPa", tension = "600 MPa" }"#;
 const MOVES: &str = r#"motion = { speed = "0.5 m/s" }"#;
 
-fn any(surroundings: &Surroundings, is: fn(&crate::with::BodyConstants) -> bool) -> bool {
+fn any(surroundings: &Surroundings, is: impl Fn(&BodyConstants) -> bool) -> bool {
     surroundings.bodies.iter().any(is)
 }
 
@@ -31,19 +31,40 @@ pub(super) const RULES: &[Rule<Fatigue>] = &[
         broken: |_, surroundings| !any(surroundings, |body| body.properties.fatigue.is_some()),
     },
     Rule {
+        this: "`to` in [fatigue]",
+        with: "a depth in the layers of a body that has limits",
+        message: "'to' does not reach below the layers: the limits are those of the body under them",
+        hint: "give a larger `to`; [subsurface] computes the largest stresses of each layer",
+        at: "fatigue.to",
+        example: &[
+            LIMITS,
+            r#"fatigue = { to = "2 um" }"#,
+            MOVES,
+            r#"lower.coating = { thickness = "2 um", young = "300 GPa", poisson = 0.25 }"#,
+        ],
+        broken: |fatigue, surroundings| {
+            let covers =
+                |body: &BodyConstants| body.material.is_layered() && body.material.thickness() >= fatigue.to;
+            any(surroundings, |body| body.properties.fatigue.is_some() && covers(body))
+        },
+    },
+    Rule {
         this: "[fatigue]",
-        with: "a body with layers that has limits",
-        message: "the limits of fatigue are those of one material, and a body with layers has several",
-        hint: "leave the limits of the body with layers out; [subsurface] computes its largest stresses, layer by layer",
+        with: "a rigid base under layers that has limits",
+        message: "a rigid base under layers has no stress that is known, and no fatigue",
+        hint: "leave the limits of this body out; [subsurface] computes the largest stresses of each layer",
         at: "fatigue",
         example: &[
             LIMITS,
             FATIGUE,
             MOVES,
-            r#"lower.coating = { thickness = "2 um", young = "300 GPa", poisson = 0.25 }"#,
+            r#"lower.layers = [{ thickness = "2 um", young = "300 GPa", poisson = 0.25 }]"#,
+            "lower.young = inf",
         ],
         broken: |_, surroundings| {
-            any(surroundings, |body| body.properties.fatigue.is_some() && body.material.is_layered())
+            let is_rigid =
+                |body: &BodyConstants| body.material.is_layered() && body.material.young.is_infinite();
+            any(surroundings, |body| body.properties.fatigue.is_some() && is_rigid(body))
         },
     },
     Rule {

@@ -64,7 +64,7 @@ impl Smooth {
             }
         };
         let Some((risks, exponent)) = found else { return Ok(None) };
-        let rough = at_risk(bodies, limited, over_limit);
+        let rough = at_risk(limited, over_limit);
         let ratio = (risks[index] / rough).powf(1.0 / exponent);
         Ok(Some(ratio).filter(|ratio| *ratio > 0.0 && ratio.is_finite()))
     }
@@ -98,16 +98,16 @@ impl Smooth {
             let cycle = LoadCycle::of_pass(pass.contacts(), &motion).until(stop);
             let found = bodies.dang_van((index, limited), &self.pair, &cycle)?;
             let over: Vec<Field> = found.iter().map(|at| &at.f / limited.criterion.limit()).collect();
-            risks[index] = at_risk(bodies, limited, &over.iter().collect::<Vec<_>>());
+            risks[index] = at_risk(limited, &over.iter().collect::<Vec<_>>());
         }
         Ok(Some((risks, if across == width { LINE } else { POINT })))
     }
 }
 
 /// Sum of the risk of all columns.
-fn at_risk(bodies: &LimitedBodies, limited: &Limited, over_limit: &[&Field]) -> f64 {
+fn at_risk(limited: &Limited, over_limit: &[&Field]) -> f64 {
     let limit = if limited.endurance { 1.0 } else { 0.0 };
     let Some(first) = over_limit.first() else { return 0.0 };
     let column = |cell| -> Vec<f64> { over_limit.iter().map(|over| over[cell]).collect() };
-    first.indexed_iter().map(|(cell, _)| risk(&bodies.depths, &column(cell), limit)).sum()
+    first.indexed_iter().map(|(cell, _)| risk(&limited.depths, &column(cell), limit)).sum()
 }

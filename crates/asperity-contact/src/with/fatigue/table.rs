@@ -20,7 +20,8 @@ pub struct Fatigue {
     /// Largest depth, below which nothing is looked at.
     #[key(quantity = Length, range = AboveZero, example = "\"8 um\"", exists = exists::LAYER, beside = [DEPTH, DEEPEST])]
     pub to: Metre,
-    /// Number of depths, geometric from half a cell to the largest.
+    /// Number of depths, geometric from half a cell, or from the lowest interface of a body with thicker layers, to the
+    /// largest.
     #[key(count = 1, default = 8, example = "12")]
     pub layers: usize,
     /// Interval of the positions of a pass, or of the increments of a cycle, whose stress is computed.
@@ -136,9 +137,9 @@ impl FatigueLimits {
 }
 
 impl Fatigue {
-    /// Returns the depths on a grid with this pitch, ascending.
-    pub fn depths(&self, pitch: [Metre; 2]) -> Vec<Metre> {
-        let first = 0.5 * pitch[0].min(pitch[1]);
+    /// Returns the depths below the layers of a body, ascending, on a grid with this pitch.
+    pub fn depths(&self, pitch: [Metre; 2], layers: Metre) -> Vec<Metre> {
+        let first = layers.max(0.5 * pitch[0].min(pitch[1]));
         if self.layers == 1 || self.to <= first {
             return vec![self.to];
         }

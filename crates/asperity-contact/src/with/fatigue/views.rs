@@ -65,7 +65,7 @@ const fn of_body(
 }
 
 const F: &str = "The largest f over the depths, over its limit: where it is below 1, nothing fails in the end. The cross marks the largest.";
-const SECTION: &str = "f over its limit below the row of cells with the largest f, which the cross marks. z points into the body.";
+const SECTION: &str = "f over its limit below the row of cells with the largest f, which the cross marks. z points into the body. Layers are left blank.";
 const DAMAGE: &str = "The largest damage over the depths so far. A point fails at 1.";
 
 /// f, the damage, and the removal that is faster, of both bodies.
@@ -105,7 +105,8 @@ pub(super) fn describe(fatigue: &Fatigue, surroundings: &Surroundings) -> String
         let limits = body.properties.fatigue.as_ref()?;
         let [torsion, tension] =
             [limits.torsion, limits.tension].map(|limit| format(limit, Dimension::Pressure));
-        Some(format!("the {name} body from {torsion} in torsion and {tension} in tension"))
+        let below = if body.material.is_layered() { ", below its layers," } else { "" };
+        Some(format!("the {name} body{below} from {torsion} in torsion and {tension} in tension"))
     });
     let often = match (surroundings.moves, fatigue.every) {
         (false, 1) => "at each increment of a cycle".to_owned(),
@@ -185,8 +186,8 @@ pub(super) fn numbers(row: &FatigueRecord) -> Vec<Line> {
                 },
             ),
         ),
-        row.critical.line(body, word(row)),
     ];
+    lines.extend(row.critical.line(body, word(row)));
     lines.extend(
         row.pitted_share
             .map(|share| Line::new(format!("pits, {body}"), format!("{} of the area", percent(share)))),

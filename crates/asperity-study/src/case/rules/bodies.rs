@@ -33,6 +33,23 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
     Rule {
+        this: "`pit_depth`",
+        with: "a body with layers",
+        message: "'pit_depth' of a body with layers: pits would break through the layers, and contacts keep these whole",
+        hint: "leave 'pit_depth' out; `life` in `fatigue.csv` tells when the body below the layers fails",
+        at: "lower.fatigue.pit_depth",
+        example: &[
+            r#"lower.fatigue = { torsion = "350 MPa", tension = "600 MPa", pit_depth = "4 um" }"#,
+            r#"fatigue = { to = "8 um" }"#,
+            r#"motion = { speed = "0.5 m/s" }"#,
+            r#"lower.coating = { thickness = "2 um", young = "300 GPa", poisson = 0.25 }"#,
+        ],
+        broken: |tables| {
+            let pits = |body: &Body| body.properties.fatigue.is_some_and(|limits| limits.pit_depth > 0.0);
+            tables.of_body("fatigue.pit_depth", |body| pits(body) && body.material.is_layered())
+        },
+    },
+    Rule {
         this: "`young = inf`",
         with: "`young = inf` of the other body",
         message: "both bodies are rigid",
