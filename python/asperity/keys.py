@@ -566,7 +566,8 @@ class Fatigue(_RequiredFatigue, total=False):
     to : float or str
         Largest depth, below which nothing is looked at; length > 0. Required.
     layers : int
-        Number of depths, geometric from half a cell to the largest; whole number ≥ 1. By default `8`.
+        Number of depths, geometric from half a cell, or from the lowest interface of a body with thicker layers, to the
+        largest; whole number ≥ 1. By default `8`.
     every : int
         Interval of the positions of a pass, or of the increments of a cycle, whose stress is computed; whole number ≥
         1. By default `1`.

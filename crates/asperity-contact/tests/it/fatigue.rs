@@ -1,6 +1,5 @@
 //! Dang Van's criterion: closed forms, invariances, and histories of random contacts one by one.
 
-use approx::assert_abs_diff_eq;
 use asperity_contact::fatigue::{DangVan, StressHistory, risk};
 use asperity_contact::kernel::Stack;
 use asperity_contact::material::{Coating, Material};
@@ -138,7 +137,8 @@ fn a_body_below_layers_sees_the_stress_of_a_body_below_layers() {
         };
         let expected = plain().dang_van(&criterion(), &depths).unwrap();
         for (found, expected) in layered(2.0).iter().zip(&expected) {
-            assert_abs_diff_eq!(found.f, expected.f, epsilon = 1e-7);
+            let furthest = (&found.f - &expected.f).iter().fold(0.0f64, |most, f| most.max(f.abs()));
+            assert!(furthest < 1e-7, "{boundary:?}: {furthest}");
         }
         let most = |f: &Field| f.iter().copied().fold(0.0, f64::max);
         assert!(most(&layered(20.0)[0].f) < 0.8 * most(&expected[0].f), "{boundary:?}");

@@ -168,10 +168,11 @@ fn a_body_below_layers_tires_at_its_own_depths() {
     assert!(maps.read("critical_wear_lower").is_err() && maps.read("critical_wear_upper").is_ok());
     let section = maps.read("over_limit_section_lower").unwrap().into_field().unwrap();
     // The layer has three eighths of the largest depth, 36 of 96 rows.
-    assert!((0..96).all(|k| section[[0, k]].is_nan() == (k < 36)));
-    // A stiff layer keeps the stress from the body.
-    covered.lower.material.layers = layer(600e9);
-    assert!(of(&covered).0.over_limit < 0.95 * alike.over_limit);
+    assert!((0..96).all(|k| (section[[0, k]] == 0.0) == (k < 36)));
+    // A soft layer spreads the pressure before it reaches the body.
+    covered.lower.material.layers = layer(20e9);
+    let soft = of(&covered).0.over_limit;
+    assert!(soft < 0.8 * alike.over_limit, "{soft} {}", alike.over_limit);
 }
 
 #[test]

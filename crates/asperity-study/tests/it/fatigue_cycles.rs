@@ -83,7 +83,7 @@ fn a_cycle_is_that_of_the_stresses_of_its_increments_one_by_one() {
         let contacts: Vec<Tractions> =
             ways.iter().map(|ways| tractions(&solved(&plain(&text(ways))))).collect();
         let case = parsed(&text(&way(3, 3, "cycles = 1")));
-        let depths = case.with.fatigue.as_ref().unwrap().depths([1e-6; 2]);
+        let depths = case.with.fatigue.as_ref().unwrap().depths([1e-6; 2], 0.0);
         let bodies = [("lower", 0.3, DangVan::new(350e6, 600e6)), ("upper", 0.2, DangVan::new(200e6, 300e6))];
         for (body, poisson, criterion) in bodies {
             let criterion = criterion.unwrap();
@@ -211,7 +211,7 @@ fn a_cycle_in_which_nothing_changes_has_the_hydrostatic_stress_alone() {
     let result = solved(&text);
     let case = parsed(&text);
     let criterion = DangVan::new(350e6, 600e6).unwrap();
-    for (k, depth) in case.with.fatigue.as_ref().unwrap().depths([1e-6; 2]).into_iter().enumerate() {
+    for (k, depth) in case.with.fatigue.as_ref().unwrap().depths([1e-6; 2], 0.0).into_iter().enumerate() {
         let subsurface = Subsurface::new(result.fields.grid, case.contact.boundary, 0.3, &tractions(&result));
         let plane = subsurface.plane(depth);
         for ((i, j), found) in field(&result, &format!("over_limit_{:02}_lower", k + 1)).indexed_iter() {

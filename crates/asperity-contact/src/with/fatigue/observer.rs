@@ -120,7 +120,7 @@ impl FatigueObserver {
     }
 }
 
-/// Returns f over its limit below a row of cells, linear between the depths and evenly spaced; NaN in layers.
+/// Returns f over its limit below a row of cells, linear between the depths and evenly spaced; 0 in layers.
 fn section(limited: &Limited, over_limit: &[&Field], grid: Grid, row: usize) -> (Grid, Field) {
     /// Rows of cells of a section.
     const ROWS: usize = 96;
@@ -129,7 +129,7 @@ fn section(limited: &Limited, over_limit: &[&Field], grid: Grid, row: usize) -> 
     let values = Field::from_shape_fn([grid.shape[0], ROWS], |(i, k)| {
         let depth = (k as f64 + 0.5) * step;
         if limited.is_covered() && depth < depths[0] {
-            return f64::NAN;
+            return 0.0;
         }
         let below = depths.partition_point(|z| *z <= depth).min(depths.len() - 1);
         let above = below.saturating_sub(1);

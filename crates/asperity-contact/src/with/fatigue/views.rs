@@ -65,7 +65,7 @@ const fn of_body(
 }
 
 const F: &str = "The largest f over the depths, over its limit: where it is below 1, nothing fails in the end. The cross marks the largest.";
-const SECTION: &str = "f over its limit below the row of cells with the largest f, which the cross marks. z points into the body. Layers are left blank.";
+const SECTION: &str = "f over its limit below the row of cells with the largest f, which the cross marks. z points into the body. Layers, which are not looked at, have 0.";
 const DAMAGE: &str = "The largest damage over the depths so far. A point fails at 1.";
 
 /// f, the damage, and the removal that is faster, of both bodies.
