@@ -350,6 +350,7 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
         warnings.extend(filled(name, body));
         coarse(name, body, &mut warnings);
         warnings.extend(thin(name, case, body.topography.grid().pitch));
+        warnings.extend(unlayered_heat(name, case));
         if matches!(spec.source, Source::File { .. } | Source::Given { .. })
             && spec.preparation.level == Level::None
         {
@@ -446,6 +447,18 @@ fn fast(case: &Case, pitch: Metre) -> Option<String> {
             "heat hardly leaves a cell while the bodies slide over one: its Péclet number is {}, up to 1 the flash temperature \
              is right to a few per cent; take a smaller `pitch`",
             units::format_number(largest)
+        )
+    })
+}
+
+/// Warns of a flash temperature of a body with layers.
+fn unlayered_heat(name: &str, case: &Case) -> Option<String> {
+    let body = if name == "lower" { &case.lower } else { &case.upper };
+    let is_computed = body.thermal.is_some() && case.temperature.is_some_and(|heat| heat.every() > 0);
+    (is_computed && body.material.is_layered()).then(|| {
+        format!(
+            "the flash temperature takes the {name} body without its layers: under layers that conduct worse than the body the \
+             surfaces get hotter"
         )
     })
 }

@@ -79,6 +79,20 @@ fn a_flash_temperature_of_cells_that_heat_does_not_leave_is_told_of() {
 }
 
 #[test]
+fn a_flash_temperature_without_the_layers_of_a_body_is_told_of() {
+    let told = |layer: &str, bulk: &str| {
+        let case =
+            sliding("1 m/s", "", &format!("[temperature]\nbulk = 300\n{bulk}[upper.coating]\n{layer}"));
+        foreseen(&case)
+            .into_iter()
+            .filter(|warning| warning.contains("takes the upper body without its layers"))
+            .count()
+    };
+    let layer = "thickness = \"5 um\"\nmaterial = \"dlc\"\n";
+    assert_eq!([told(layer, ""), told(layer, "every = 0\n")], [1, 0]);
+}
+
+#[test]
 fn wear_of_the_rim_a_thick_film_and_passes_all_computed_are_told_of() {
     let wear = "wear = { coefficient = \"1e-8 mm3/(N m)\" }\n";
     let film = "film = { law = \"arrhenius\", max_thickness = \"1 um\", rate = \"10 m/s\", at_temperature = 300, at_stress = 0, \
