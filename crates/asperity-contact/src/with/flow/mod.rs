@@ -310,8 +310,8 @@ const TOLERANCE: f64 = 1e-10;
 pub fn memory(shape: [usize; 2]) -> f64 {
     let cells = shape[0] as f64 * shape[1] as f64;
     let side = shape[0].min(shape[1]).max(2) as f64;
-    // Entries of the factor of a square grid: 52 a cell at 128², 60 at 256². Levels and vectors of multigrid: 100 bytes a cell.
-    let solver = if cells < FEWEST as f64 { 1.3 * (8.5 * side.log2() - 7.0).max(10.0) } else { 13.0 };
+    // Entries of the factor of a square grid: 52 a cell at 128², 60 at 256². Levels and vectors of multigrid: 88 bytes a cell.
+    let solver = if cells < FEWEST as f64 { 1.3 * (8.5 * side.log2() - 7.0).max(10.0) } else { 11.0 };
     8.0 * cells * (solver + 40.0)
 }
 

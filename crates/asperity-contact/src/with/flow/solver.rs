@@ -42,7 +42,7 @@ impl<'a> Solver<'a> {
         let method = if cells < fewest || network.shape.contains(&1) {
             Method::Elimination(eliminated(network, wanted, periodic))
         } else {
-            Method::Multigrid { levels: Multigrid::new(network), iterations: 0 }
+            Method::Multigrid { levels: Multigrid::new(network, wanted), iterations: 0 }
         };
         Self { network, wanted, periodic, method }
     }
