@@ -317,7 +317,7 @@ pub fn memory(shape: [usize; 2]) -> f64 {
 
 /// Solves for the flow through a `gap`, in metres. Cells whose gap is not positive are closed.
 ///
-/// Up to 10⁵ flowing cells are eliminated. More are solved for by multigrid, whose time and memory are linear in their
+/// Up to 30 000 flowing cells are eliminated. More are solved for by multigrid, whose time and memory are linear in their
 /// number. They are eliminated too if that does not converge, so that any contrast of the gaps is permitted. Gaps below
 /// 10⁻²⁰ of the largest count as closed. The answer does not depend on the number of threads.
 ///

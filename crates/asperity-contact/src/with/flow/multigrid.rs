@@ -69,7 +69,7 @@ impl Rows {
     }
 }
 
-/// Interpolation from the next coarser level, entry by entry: the ends of its rows, of one to four entries, would be mispredicted.
+/// Interpolation from the next coarser level, entry by entry: loops over rows of one to four entries would take longer.
 struct Interpolation {
     /// Row and column of each entry.
     entries: Vec<(u32, u32)>,

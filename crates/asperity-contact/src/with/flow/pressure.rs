@@ -21,10 +21,10 @@ const ENOUGH: f64 = 4e-15;
 /// not go on below.
 const TOO_MUCH: f64 = 1e-11;
 
-/// Least tolerance of a solver that iterates. Without reservoirs, what the currents do not add up to 0 is never balanced.
+/// Least tolerance of a solver that iterates. Without reservoirs, the round-off in the sum of the currents is never balanced.
 const LEAST_TOLERANCE: f64 = 1e-13;
 
-/// Tolerance of the first round between reservoirs, which then mostly is the only one.
+/// Tolerance of the first round between reservoirs. A second round is seldom needed.
 const BETWEEN_RESERVOIRS: f64 = 3e-15;
 
 /// Flow along an axis, for a drop of 1 between neighbouring cells of a periodic axis, or of 1 between
