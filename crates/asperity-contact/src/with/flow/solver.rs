@@ -6,7 +6,7 @@ use super::multigrid::Multigrid;
 use super::ordering::Ordering;
 
 /// Fewest cells that are solved for by multigrid. Below, their elimination takes less time.
-pub(super) const FEWEST: usize = 100_000;
+pub(super) const FEWEST: usize = 30_000;
 
 /// Most iterations for one network. Beyond, its cells are eliminated: gaps that vary by orders of magnitude from each
 /// cell to the next need more.
@@ -42,7 +42,7 @@ impl<'a> Solver<'a> {
         let method = if cells < fewest || network.shape.contains(&1) {
             Method::Elimination(eliminated(network, wanted, periodic))
         } else {
-            Method::Multigrid { levels: Multigrid::new(network), iterations: 0 }
+            Method::Multigrid { levels: Multigrid::new(network, wanted), iterations: 0 }
         };
         Self { network, wanted, periodic, method }
     }
