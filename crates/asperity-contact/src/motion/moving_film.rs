@@ -21,7 +21,7 @@ pub(super) const HALVINGS: usize = 6;
 const OIL: &str = "oil_content";
 const APPROACH: &str = "oil_approach";
 
-/// What a film of oil stays with.
+/// The frame in which a film of oil stays where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Frame {
     /// The grid, through which both bodies move.
