@@ -286,13 +286,15 @@ impl Bilinear {
         let [all, columns] = shape;
         let NodeRows { first, count } = NodeRows::new(&self.rows[rows.clone()], self.cells, all);
         let mut part = SingleField::zeros([count, columns]);
-        let mut line = vec![0.0; columns + 1];
-        let (fine, mut ones) = (sets.bands().columns(), Vec::new());
+        let fine = sets.bands().columns();
+        // The values of each column between two rows of nodes: their parts for either row.
+        let mut lines = [vec![0.0; fine], vec![0.0; fine]];
+        let (mut line, mut ones) = (vec![0.0; columns + 1], Vec::new());
+        let end = rows.end;
         for row in rows {
             let (cells, start) = sets.row(row);
-            if cells.is_empty() {
-                continue;
-            }
+            let (node, share) = self.rows[row];
+            let [before, after] = &mut lines;
             let own = row * fine..(row + 1) * fine;
             let values = match values {
                 Some(values) => &values[own],
@@ -302,15 +304,23 @@ impl Bilinear {
                     &ones
                 }
             };
-            line.fill(0.0);
             if is_sparse(cells, fine) {
                 for column in cells.iter().map(|cell| *cell as usize - start) {
-                    let node = self.before[column];
-                    let second = self.shares[column] * values[column];
-                    line[node] += values[column] - second;
-                    line[node + 1] += second;
+                    before[column] += (1.0 - share) * values[column];
+                    after[column] += share * values[column];
                 }
             } else {
+                for ((before, after), value) in before.iter_mut().zip(after).zip(values) {
+                    *before += (1.0 - share) * value;
+                    *after += share * value;
+                }
+            }
+            if row + 1 < end && self.rows[row + 1].0 == node {
+                continue;
+            }
+            let node = (node + all - first) % all;
+            for (node, values) in [node, (node + 1) % all].into_iter().zip(&mut lines) {
+                line.fill(0.0);
                 for (node, columns) in &self.between {
                     let shares = &self.shares[columns.clone()];
                     let [sum, second] =
@@ -318,12 +328,10 @@ impl Bilinear {
                     line[*node] += sum - second;
                     line[*node + 1] += second;
                 }
+                line[0] += line[columns];
+                part.row_mut(node).iter_mut().zip(&line).for_each(|(n, v)| *n += v);
+                values.fill(0.0);
             }
-            line[0] += line[columns];
-            let (node, share) = self.rows[row];
-            let node = (node + all - first) % all;
-            part.row_mut(node).iter_mut().zip(&line).for_each(|(n, v)| *n += (1.0 - share) * v);
-            part.row_mut((node + 1) % all).iter_mut().zip(&line).for_each(|(n, v)| *n += share * v);
         }
         (first, part)
     }

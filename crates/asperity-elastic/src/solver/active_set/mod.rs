@@ -486,7 +486,7 @@ impl<'a> Iteration<'a> {
     /// bound exceeds `max_rounding`. Returns the multiple of the response, 1 or 0, that the displacement
     /// lacks.
     fn step_to_bounds(&mut self, approach: Metre, max_rounding: Metre) -> f64 {
-        let [moving, to_bounds] = self.merged(Block::direct_to_bounds);
+        let [moving, to_bounds] = self.merged(Block::move_to_bounds);
         if moving == 0.0 {
             return 0.0;
         }
@@ -503,7 +503,7 @@ impl<'a> Iteration<'a> {
             self.each(|block| block.balance_direction(each, per_pressure));
         }
         let in_double = !self.near && self.rounding() > max_rounding;
-        self.each(|block| block.step_to_bounds(!in_double));
+        self.each(|block| block.move_free_cells(!in_double));
         if in_double {
             self.restore_the_sum();
             self.each(Block::convolve);

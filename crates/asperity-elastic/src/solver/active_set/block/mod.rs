@@ -51,6 +51,10 @@ pub(super) struct Block<'a> {
     sets: Sets,
     /// The search direction d.
     direction: SingleField,
+    /// Number of proposed pressures in each band that may exceed a uniform lower bound, up to an offset.
+    candidates: Vec<usize>,
+    /// The largest offset for which the candidates are complete.
+    candidates_offset: Pascal,
     /// The response C·d of the direction. Before the direction is known it holds the residual r of the free
     /// cells, and then the preconditioned residual z = M r; during the prediction of sets the proposed
     /// pressures, and then the predicted residual.
@@ -99,6 +103,8 @@ impl<'a> Block<'a> {
             feasible_touch: None,
             sets: Sets::new(shape),
             direction: SingleField::zeros(shape),
+            candidates: vec![0; Bands::new(shape).rows().len()],
+            candidates_offset: f64::NEG_INFINITY,
             response: SingleField::zeros(shape),
             max_response: 0.0,
             halo: slab.halo(reach[0]),

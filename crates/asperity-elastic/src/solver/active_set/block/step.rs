@@ -92,6 +92,7 @@ impl Block<'_> {
 
     /// Proposes the pressures p + (δ − h − u)·stiffness after one diagonal Newton step. Returns their range.
     pub(in crate::solver::active_set) fn propose(&mut self, approach: Metre, stiffness: f64) -> Range {
+        self.candidates_offset = f64::NEG_INFINITY;
         let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
         let bands = bands.zip(self.bands.cut_mut(flat_mut(&mut self.response)));
         let parts = parallel::map(bands, |((pressure, touch), proposed)| {
@@ -104,9 +105,25 @@ impl Block<'_> {
     }
 
     /// Returns the sum of the proposed pressures after an offset and clipping, and the number of cells
-    /// strictly between their bounds.
-    pub(in crate::solver::active_set) fn proposed_sum(&self, offset: Pascal) -> [f64; 2] {
-        self.sum_within(&self.response, |y, bounds| within(f64::from(y) + offset, bounds))
+    /// strictly between their bounds. The direction, which is not known yet, lists the candidates: proposed
+    /// pressures that are above a uniform lower bound after this offset or a smaller one.
+    pub(in crate::solver::active_set) fn proposed_sum(&mut self, offset: Pascal) -> [f64; 2] {
+        let Some(bounds) = self.site.bounds().uniform() else {
+            return self.sum_within(&self.response, |y, bounds| within(f64::from(y) + offset, bounds));
+        };
+        let (bands, complete) = (self.bands, offset <= self.candidates_offset);
+        if !complete {
+            self.candidates_offset = offset;
+        }
+        let least = (bounds.lower - offset) as f32;
+        let parts = bands.cut(flat(&self.response)).zip(bands.cut_mut(flat_mut(&mut self.direction)));
+        Merged::of_parts(parallel::map(parts.zip(&mut self.candidates), |((proposed, listed), count)| {
+            if !complete {
+                *count = list_from(least, proposed, listed);
+            }
+            let [sum, between] = sums(&listed[..*count], |_, y| within(f64::from(y) + offset, bounds));
+            [sum + (proposed.len() - *count) as f64 * bounds.lower, between]
+        }))
     }
 
     /// Predicts the sets from the proposed pressures after an offset.
@@ -125,13 +142,12 @@ impl Block<'_> {
         self.preconditioner.adapt(&self.sets);
     }
 
-    /// Sets the direction that brings the cells predicted at a bound to it. Returns the number of cells
-    /// that move, and the sum of the direction.
-    pub(in crate::solver::active_set) fn direct_to_bounds(&mut self) -> [f64; 2] {
-        let bounds = self.site.bounds();
-        let bands = self.bands;
+    /// Moves the pressures of the cells predicted at a bound to it, and sets the direction by which they
+    /// move. Returns the number of these cells, and the sum of the direction.
+    pub(in crate::solver::active_set) fn move_to_bounds(&mut self) -> [f64; 2] {
+        let (bands, bounds) = (self.bands, self.site.bounds());
         let parts = bands.cut_mut(flat_mut(&mut self.direction)).zip(bands.cut(self.sets.by_cell()));
-        let parts = parts.zip(bands.cut(flat(&self.pressure))).enumerate();
+        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.pressure))).enumerate();
         Merged::of_parts(parallel::map(parts, |(band, ((direction, sets), pressure))| {
             let first = bands.first(band);
             let mut moving = 0;
@@ -144,9 +160,10 @@ impl Block<'_> {
                         Set::Upper => upper,
                         Set::Free => *p,
                     };
-                    let distance = end - p;
+                    let distance = end - *p;
                     moving += usize::from(distance != 0.0);
                     *d = distance as f32;
+                    *p = end;
                 }
             });
             let [added] = sums(direction, |_, d| [f64::from(d)]);
@@ -249,28 +266,16 @@ impl Block<'_> {
         });
     }
 
-    /// Moves the pressures along the direction to the bounds. If `convolved`, it also computes the response.
-    pub(in crate::solver::active_set) fn step_to_bounds(&mut self, convolved: bool) {
+    /// Moves the pressures of the free cells along the direction. If `convolved`, it also computes the
+    /// response.
+    pub(in crate::solver::active_set) fn move_free_cells(&mut self, convolved: bool) {
         if convolved {
             self.convolve_direction();
         }
-        let (bands, bounds) = (self.bands, self.site.bounds());
+        let bands = self.bands;
         let parts = bands.cut_mut(flat_mut(&mut self.pressure)).zip(bands.cut(flat(&self.direction)));
-        let parts = parts.zip(bands.cut(self.sets.by_cell())).enumerate();
-        parallel::map(parts, |(band, ((pressure, direction), sets))| {
-            let first = bands.first(band);
-            let cells = pressure.iter_mut().zip(direction).zip(sets).enumerate();
-            with_bounds!(bounds, of => {
-                for (cell, ((p, d), set)) in cells {
-                    let (Interval { lower, upper }, moved) = (of(first + cell), *p + f64::from(*d));
-                    // The pressures are exactly at the bounds, without the rounding of the sum.
-                    *p = match set {
-                        Set::Lower => lower,
-                        Set::Upper => upper,
-                        Set::Free => moved,
-                    };
-                }
-            });
+        parallel::map(parts.zip(self.sets.in_bands()), |((p, d), free)| {
+            free.cells().for_each(|cell| p[cell] += f64::from(d[cell]));
         });
     }
 
@@ -358,6 +363,21 @@ impl Block<'_> {
     }
 }
 
+/// Puts the values from `least` on first in a list, in their order. Returns their number.
+fn list_from(least: f32, values: &[f32], list: &mut [f32]) -> usize {
+    const TOGETHER: usize = 16;
+    let mut count = 0;
+    for some in values.chunks(TOGETHER) {
+        if some.iter().fold(false, |any, value| any | (*value >= least)) {
+            for value in some {
+                list[count] = *value;
+                count += usize::from(*value >= least);
+            }
+        }
+    }
+    count
+}
+
 /// Number of cells whose norms are summed separately, so that none waits for another.
 const LANES: usize = 4;
 
@@ -383,11 +403,17 @@ impl Step {
         [residuals, violations, largest]: &mut [[f64; N]; 3],
     ) {
         if sets == [Set::Lower; N] {
+            let mut overlap = false;
             for lane in 0..N {
                 touch[lane] += self.step * f64::from(c[lane]);
-                let violation = (self.datum - touch[lane]).max(0.0);
+                overlap |= touch[lane] < self.datum;
                 c[lane] = 0.0;
-                violations[lane] += violation * violation;
+            }
+            if overlap {
+                for lane in 0..N {
+                    let violation = (self.datum - touch[lane]).max(0.0);
+                    violations[lane] += violation * violation;
+                }
             }
             return;
         }
