@@ -9,7 +9,7 @@ import { SIDES } from "./surface.js";
 const LOADS = { load: ["load", "0.5 N"], mean_pressure: ["mean pressure", "20 MPa"], approach: ["approach", "0 nm"] };
 const SWEEPS = ["loads", "mean_pressures", "approaches"];
 /** Longest estimated time of a contact that is computed after each change, s. */
-const AT_ONCE = 2;
+const AT_ONCE = 5;
 /** Decades of the slider on either side of the load that was typed. */
 const DECADES = 2;
 /** Number of loads of a sweep. */
