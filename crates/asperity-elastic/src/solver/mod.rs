@@ -271,7 +271,12 @@ impl Solution {
 
     /// Returns the mean of the [`Solution::gap`], m.
     pub fn mean_gap(&self) -> Metre {
-        let [gap, displacement] = [&self.initial_gap, &self.displacement].map(flat);
+        self.mean_gap_over(&self.initial_gap)
+    }
+
+    /// Returns the mean of h + u − δ over another initial gap h, m.
+    pub fn mean_gap_over(&self, initial_gap: &Field) -> Metre {
+        let [gap, displacement] = [initial_gap, &self.displacement].map(flat);
         let [sum] = self.merged(|cells| {
             let displacement = &displacement[cells.clone()];
             sums(&gap[cells], |cell, h| [h + displacement[cell] - self.approach])

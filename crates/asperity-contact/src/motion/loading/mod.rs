@@ -263,9 +263,8 @@ impl StagedLoading {
             (Response::Elastic(_), Some(changed)) => changed.pair.initial_gap(&changed.pair.at_rest()),
             (Response::Elastic(_), None) => self.gap.clone(),
         };
-        let gap = gap + &normal.displacement - normal.approach;
         let record = StaticRecord {
-            mean_gap: gap.mean().unwrap_or(0.0),
+            mean_gap: normal.mean_gap_over(&gap),
             iterations: increments.iter().map(|increment| increment.iterations).sum(),
             convolutions: sum(|increment| increment.convolutions),
             shear,
