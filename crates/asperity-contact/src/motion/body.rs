@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::error::{Result, check_in};
 use crate::grid::{CellValues, Field};
-use crate::units::Dimension;
+use crate::units::{Dimension, Metre};
 
 /// One of two contacting bodies: its heights, and its other properties that a motion may change cell by cell.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +42,13 @@ impl Body {
     /// Number of cells along y.
     pub fn width(&self) -> usize {
         self.heights.ncols()
+    }
+
+    /// Difference of the highest and the lowest cell.
+    pub fn height_range(&self) -> Metre {
+        let ends = |[least, most]: [Metre; 2], z: &Metre| [least.min(*z), most.max(*z)];
+        let [least, most] = self.heights.iter().fold([Metre::INFINITY, Metre::NEG_INFINITY], ends);
+        most - least
     }
 
     /// Checks that each field has a value for each cell, and that the hardness is valid.

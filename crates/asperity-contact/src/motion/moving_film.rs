@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, flat};
 use crate::lubrication::{Film, FilmParams, FilmProblem, FilmSolution, Lubrication, OilStep, solve_film};
-use crate::motion::body::{Body, State};
+use crate::motion::body::State;
 use crate::motion::kinematics::{Motion, Strategy};
 use crate::motion::pair::Pair;
 use crate::motion::path::{Position, Stroke};
@@ -41,15 +41,10 @@ impl Frame {
         if matches!(motion.strategy, Strategy::Shift { .. }) {
             return Self::Grid;
         }
-        let height = |body: &Body| {
-            let range = |[least, most]: [f64; 2], z: &f64| [least.min(*z), most.max(*z)];
-            let [least, most] = body.heights.iter().fold([f64::INFINITY, f64::NEG_INFINITY], range);
-            most - least
-        };
         let [lower, upper] = [&pair.lower, &pair.upper];
         match lower.columns().cmp(&upper.columns()) {
             Ordering::Less => Self::Lower,
-            Ordering::Equal if height(lower) > height(upper) => Self::Lower,
+            Ordering::Equal if lower.height_range() > upper.height_range() => Self::Lower,
             Ordering::Equal | Ordering::Greater => Self::Upper,
         }
     }

@@ -4,10 +4,9 @@ use std::f64::consts::{PI, SQRT_2};
 
 use crate::case::Case;
 use crate::estimate::{Estimate, STEEP, STRENGTH};
-use asperity_base::grid::Field;
 use asperity_base::units::{Kelvin, Metre, Pascal};
 use asperity_contact::material::composite_modulus;
-use asperity_contact::motion::Pair;
+use asperity_contact::motion::{Body, Pair};
 use asperity_contact::solver::Control;
 
 /// E* up to which bodies are rubbers and gels, which stay elastic at any strain.
@@ -43,13 +42,13 @@ pub(super) struct Bounds {
 impl Bounds {
     pub(super) fn new(case: &Case, pair: &Pair, estimate: &Estimate) -> Self {
         let unless = |known: bool, bound: f64| if known { f64::INFINITY } else { bound };
-        let bodies = [&pair.lower, &pair.upper].map(|body| &body.heights);
-        let sq = bodies.iter().fold(0.0, |all: f64, heights| all.hypot(heights.std(0.0)));
+        let bodies = [&pair.lower, &pair.upper];
+        let sq = bodies.iter().fold(0.0, |all: f64, body| all.hypot(body.heights.std(0.0)));
         let wave = 2.0 * PI * sq / estimate.gap_slope;
         let steep = STEEP * SQRT_2 / PI * wave;
         let [dx, dy] = pair.pitch();
         let [lower, upper] = [&case.lower, &case.upper].map(|body| body.material.at_surface());
-        // A rigid body on another has layers below.
+        // Surfaces that do not deform have no limit.
         let modulus = composite_modulus(&lower, &upper).unwrap_or(f64::INFINITY);
         let strength = STRENGTH * modulus;
         // A hardness that is not much larger caps the pressure.
@@ -57,7 +56,7 @@ impl Bounds {
         let near = matches!(estimate.control, Control::Load(load) if load > NEAR_PLASTIC_LIMIT * estimate.plastic_limit);
         let sides = [pair.lower_grid(), pair.upper_grid()].map(|grid| grid.extent());
         let longest = sides.into_iter().flatten().fold(0.0, f64::max);
-        let heights = bodies.map(range).iter().sum::<f64>();
+        let heights = bodies.map(Body::height_range).iter().sum::<f64>();
         Self {
             slope: unless(estimate.gap_slope > STEEP, STEEP),
             removal: if steep > 0.0 { steep.min(dx).min(dy) } else { dx.min(dy) },
@@ -69,12 +68,4 @@ impl Bounds {
             interference: unless(heights == 0.0, heights),
         }
     }
-}
-
-/// Difference of the highest and the lowest cell.
-fn range(heights: &Field) -> Metre {
-    let [least, most] = heights
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], z| [least.min(*z), most.max(*z)]);
-    most - least
 }
