@@ -44,9 +44,8 @@ pub(crate) fn fatigue<'py>(
             Tractions { pressure, shear: [shear, None] }
         };
         let stop = || watch.stop();
-        let history = StressHistory::new(grid, boundary, material.poisson, positions, at).until(&stop);
-        let history =
-            if material.is_layered() { history.with_layers(Stack::new(&material)) } else { history };
+        let history = StressHistory::new(grid, boundary, material.poisson, positions, at);
+        let history = history.with_layers(Stack::of(&material)).until(&stop);
         history.dang_van(&criterion, &depths)
     })?;
     let together = |field: fn(&AtDepth) -> &Field| {

@@ -28,8 +28,7 @@ fn body(py: Python<'_>, given: &LoadedBody<'_>) -> PyResult<(impl Fn() -> Subsur
     let tractions = if *is_upper { tractions.on_upper() } else { tractions };
     let material = ok(material(constants.clone()), py)?;
     let body = move || {
-        let body = Subsurface::new(grid, boundary, material.poisson, &tractions);
-        if material.is_layered() { body.with_layers(Stack::new(&material)) } else { body }
+        Subsurface::new(grid, boundary, material.poisson, &tractions).with_layers(Stack::of(&material))
     };
     Ok((body, grid))
 }

@@ -139,7 +139,7 @@ impl Plan {
             Side::Lower => &case.lower,
             Side::Upper => &case.upper,
         };
-        let thickness = body.material.layers.iter().map(|layer| layer.thickness).sum::<Metre>();
+        let thickness = body.material.thickness();
         let deepest = [("to", Some(spec.to)), ("planes", spec.planes.iter().copied().reduce(f64::max))];
         let rigid = body.material.is_layered() && body.material.young.is_infinite();
         for (key, depth) in deepest {
@@ -228,11 +228,9 @@ impl Plan {
             Side::Upper => tractions.on_upper(),
         };
         let residual = self.residual(plastic_state)?;
-        let mut body =
-            Subsurface::new(self.grid, self.boundary, self.poisson, &tractions).with_residual(residual);
-        if self.material.is_layered() {
-            body = body.with_layers(Stack::new(&self.material));
-        }
+        let body = Subsurface::new(self.grid, self.boundary, self.poisson, &tractions)
+            .with_residual(residual)
+            .with_layers(Stack::of(&self.material));
         // The section goes through the most stressed point of all, mostly that of each plane.
         let look = |plane: Plane, most: &Maximum| {
             let row = self.section.unwrap_or(most.von_mises.cell[1]);

@@ -127,9 +127,9 @@ impl Subsurface {
         Self { residual: residual.into(), ..self }
     }
 
-    /// Gives the body layers.
-    pub fn with_layers(self, stack: Stack) -> Self {
-        Self { stack: Some(stack), ..self }
+    /// Sets or removes layers on the body.
+    pub fn with_layers(self, stack: impl Into<Option<Stack>>) -> Self {
+        Self { stack: stack.into(), ..self }
     }
 
     /// Residual stress, if any.
@@ -666,8 +666,7 @@ mod tests {
         for stack in [None, Some(layers)] {
             let [line, free] = [(grid, endless, &tractions), (long, Boundary::FREE, &many)].map(
                 |(grid, boundary, tractions)| {
-                    let body = Subsurface::new(grid, boundary, 0.3, tractions);
-                    if let Some(stack) = &stack { body.with_layers(stack.clone()) } else { body }
+                    Subsurface::new(grid, boundary, 0.3, tractions).with_layers(stack.clone())
                 },
             );
             for depth in [0.0, 0.5e-6, 3e-6] {

@@ -32,8 +32,8 @@ impl StressAtDepth {
         Self { body, depth, inside: None, influence: Default::default() }
     }
 
-    /// Gives the body layers. At an interface the stress is that below, but that above on a rigid base.
-    pub fn with_layers(self, stack: Stack) -> Self {
+    /// Sets or removes layers on the body. At an interface the stress is that below, but that above on a rigid base.
+    pub fn with_layers(self, stack: impl Into<Option<Stack>>) -> Self {
         let body = self.body.with_layers(stack);
         let inside = body.inside(body.layer_at(self.depth), self.depth);
         Self { body, inside, ..self }

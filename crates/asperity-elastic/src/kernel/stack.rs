@@ -129,6 +129,11 @@ impl Stack {
         Self::with_moduli(material, &layers.chain([material.young]).collect::<Vec<_>>())
     }
 
+    /// Creates the layers of a material on its body, if it has layers.
+    pub fn of(material: &Material) -> Option<Self> {
+        material.is_layered().then(|| Self::new(material))
+    }
+
     /// Computes the response to a wave of wavenumber q > 0.
     pub fn response(&self, q: f64) -> Wave {
         let plane = self.plane(q);

@@ -344,15 +344,20 @@ fn pushed(control: Control, rolling: Rolling) -> Option<(Control, Tangential)> {
 fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
     let mut warnings = Vec::new();
     plausible::implausible(case, bodies.lower.topography.grid(), estimate, &mut warnings);
-    for (name, body, spec) in
-        [("lower", &bodies.lower, &case.lower.topography), ("upper", &bodies.upper, &case.upper.topography)]
+    let heats = case.temperature.is_some_and(|temperature| temperature.every() > 0);
+    for (name, body, given) in [("lower", &bodies.lower, &case.lower), ("upper", &bodies.upper, &case.upper)]
     {
         warnings.extend(filled(name, body));
         coarse(name, body, &mut warnings);
-        warnings.extend(thin(name, case, body.topography.grid().pitch));
-        warnings.extend(unlayered_heat(name, case));
-        if matches!(spec.source, Source::File { .. } | Source::Given { .. })
-            && spec.preparation.level == Level::None
+        warnings.extend(thin(name, &given.material, body.topography.grid().pitch));
+        if heats && given.thermal.is_some() && given.material.is_layered() {
+            warnings.push(format!(
+                "the flash temperature takes the {name} body without its layers: under layers that conduct worse than the body the \
+                 surfaces get hotter"
+            ));
+        }
+        if matches!(given.topography.source, Source::File { .. } | Source::Given { .. })
+            && given.topography.preparation.level == Level::None
         {
             tilted(name, body, &mut warnings);
         }
@@ -451,26 +456,13 @@ fn fast(case: &Case, pitch: Metre) -> Option<String> {
     })
 }
 
-/// Warns of a flash temperature of a body with layers.
-fn unlayered_heat(name: &str, case: &Case) -> Option<String> {
-    let body = if name == "lower" { &case.lower } else { &case.upper };
-    let is_computed = body.thermal.is_some() && case.temperature.is_some_and(|heat| heat.every() > 0);
-    (is_computed && body.material.is_layered()).then(|| {
-        format!(
-            "the flash temperature takes the {name} body without its layers: under layers that conduct worse than the body the \
-             surfaces get hotter"
-        )
-    })
-}
-
 /// Warns of layers that the cells do not resolve: all of them together, or one of them.
-fn thin(name: &str, case: &Case, pitch: [Metre; 2]) -> Option<String> {
+fn thin(name: &str, material: &Material, pitch: [Metre; 2]) -> Option<String> {
     /// Thickness of a layer over the size of a cell, from which it counts by more than its compliance.
     const LEAST: f64 = 0.1;
-    let body = if name == "lower" { &case.lower } else { &case.upper };
-    let layers = &body.material.layers;
+    let layers = &material.layers;
     let cell = pitch[0].max(pitch[1]);
-    let total = body.material.thickness();
+    let total = material.thickness();
     // Layers that lie deeper than a cell are not felt as such, nor parts of a layer.
     let thinnest = || {
         let alike = |one: &Coating, other: &Coating| [one.young, one.poisson] == [other.young, other.poisson];

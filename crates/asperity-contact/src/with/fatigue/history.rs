@@ -144,10 +144,10 @@ impl<'a, F: Fn(usize) -> Tractions + Sync> StressHistory<'a, F> {
         Self { grid, boundary, poisson, stack: None, contacts, tractions, stop: None }
     }
 
-    /// Gives the body layers.
+    /// Sets or removes layers on the body.
     #[must_use]
-    pub fn with_layers(self, stack: Stack) -> Self {
-        Self { stack: Some(stack), ..self }
+    pub fn with_layers(self, stack: impl Into<Option<Stack>>) -> Self {
+        Self { stack: stack.into(), ..self }
     }
 
     /// Ends with [`Error::Interrupted`] as soon as `stop` is true.
@@ -184,11 +184,8 @@ impl<'a, F: Fn(usize) -> Tractions + Sync> StressHistory<'a, F> {
     }
 
     fn at(&self, weight: f64, depth: Metre) -> Result<AtDepth> {
-        let plain = StressAtDepth::new(self.grid, self.boundary, self.poisson, depth);
-        let at_depth = match &self.stack {
-            Some(stack) => plain.with_layers(stack.clone()),
-            None => plain,
-        };
+        let at_depth = StressAtDepth::new(self.grid, self.boundary, self.poisson, depth);
+        let at_depth = at_depth.with_layers(self.stack.clone());
         let bytes = 48.0 * (self.contacts * self.grid.cells()) as f64;
         let mut kept: Vec<[Field; 6]> = Vec::new();
         let mut cells: Vec<Grown> = Vec::new();

@@ -54,7 +54,7 @@ impl LimitedBodies {
             let depths = fatigue.depths(given.pair.pitch(), body.material.thickness());
             Ok(Some(Limited {
                 poisson: body.material.poisson,
-                stack: body.material.is_layered().then(|| Stack::new(&body.material)),
+                stack: Stack::of(&body.material),
                 criterion: limits.criterion()?,
                 damage: limits.damage()?,
                 pitting: depths.iter().take_while(|depth| **depth <= limits.pit_depth).count(),
@@ -87,11 +87,9 @@ impl LimitedBodies {
         let tractions = |number: usize| cycle.tractions(number * every, pair, index);
         let stop = || cycle.stop();
         let contacts = cycle.contacts().div_ceil(every);
-        let history = StressHistory::new(grid, self.boundary, body.poisson, contacts, tractions).until(&stop);
-        let history = match &body.stack {
-            Some(stack) => history.with_layers(stack.clone()),
-            None => history,
-        };
-        history.dang_van(&body.criterion, &body.depths)
+        StressHistory::new(grid, self.boundary, body.poisson, contacts, tractions)
+            .with_layers(body.stack.clone())
+            .until(&stop)
+            .dang_van(&body.criterion, &body.depths)
     }
 }
