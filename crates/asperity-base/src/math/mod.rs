@@ -9,6 +9,7 @@ pub mod mixed;
 pub mod parallel;
 pub mod plans;
 mod quadrature;
+mod sparse_inverse;
 pub mod sum;
 
 pub use fft::RealFft2;
@@ -16,3 +17,4 @@ pub use good_size::good_size;
 pub use kernel::Kernel;
 pub use parallel::Bands;
 pub use quadrature::{gauss_legendre, integrate};
+pub use sparse_inverse::{ROWS_ABOVE, SparseInverse};

@@ -23,18 +23,19 @@ const MEMBERS: usize = NEIGHBOURS + 1;
 const CAUSAL: [(isize, isize); NEIGHBOURS] = [(-1, -1), (-1, 0), (-1, 1), (0, -1), (-2, 0), (0, -2)];
 /// Bit of the pattern of a cell whose row lies on both sides of a border along y.
 const ACROSS: u8 = 1 << NEIGHBOURS;
-/// Grids with fewer cells along an axis do not wrap along it.
-const MIN_PERIOD: usize = 8;
-/// One more than the largest distance between two entries along each axis.
-const REACH: [usize; 2] = [3, 4];
 
 impl SparseInverse {
+    /// Grids with fewer cells along an axis do not wrap along it.
+    pub const MIN_PERIOD: usize = 8;
+    /// One more than the largest distance between two cells whose coefficients it takes, along each axis.
+    pub const REACH: [usize; 2] = [3, 4];
+
     /// Creates the inverse on a grid of `shape` of the positive definite matrix with the coefficients
     /// `influence(i, j)` at the offsets ±i, ±j. The grid is periodic along the axes that it `wraps`.
     pub fn new(shape: [usize; 2], wraps: [bool; 2], influence: impl Fn(usize, usize) -> f64) -> Self {
-        let wraps = [0, 1].map(|axis| wraps[axis] && shape[axis] >= MIN_PERIOD);
+        let wraps = [0, 1].map(|axis| wraps[axis] && shape[axis] >= Self::MIN_PERIOD);
         // On small grids some neighbours never occur.
-        let coefficients: [[f64; REACH[1]]; REACH[0]] = std::array::from_fn(|i| {
+        let coefficients: [[f64; Self::REACH[1]]; Self::REACH[0]] = std::array::from_fn(|i| {
             std::array::from_fn(|j| if i < shape[0] && j < shape[1] { influence(i, j) } else { 0.0 })
         });
         let rows = std::array::from_fn(|pattern| {
@@ -57,13 +58,18 @@ impl SparseInverse {
         Self { shape, wraps, rows }
     }
 
+    /// Returns the row of G for each pattern of free neighbours.
+    pub fn rows(&self) -> &[[f32; MEMBERS]; 1 << NEIGHBOURS] {
+        &self.rows
+    }
+
     /// Returns whether the rows before the first one are the last ones.
-    pub(crate) fn wraps_rows(&self) -> bool {
+    pub fn wraps_rows(&self) -> bool {
         self.wraps[0]
     }
 
     /// Returns the row that is `back` rows before a first row `ix` across a periodic border.
-    pub(crate) fn row_before(&self, ix: usize, back: usize) -> Option<usize> {
+    pub fn row_before(&self, ix: usize, back: usize) -> Option<usize> {
         self.wraps[0].then(|| ix + self.shape[0] - back)
     }
 
@@ -91,12 +97,7 @@ impl SparseInverse {
     /// Computes the patterns of the cells of a row, for cells that are free or not: `patterns[iy]`, except
     /// for the first two cells and the last one. `own` and `above` are whether the cells of the row and of
     /// the two rows before it are free, the nearer one first; empty without such a row.
-    pub(crate) fn inner_patterns<T>(
-        own: &[T],
-        above: [&[T]; 2],
-        is_free: impl Fn(&T) -> bool,
-        patterns: &mut [u8],
-    ) {
+    pub fn inner_patterns<T>(own: &[T], above: [&[T]; 2], is_free: impl Fn(&T) -> bool, patterns: &mut [u8]) {
         let inner = 2..own.len().saturating_sub(1);
         let mut add = |row: &[T], shift: isize, bit: u8| {
             if row.is_empty() || inner.is_empty() {
