@@ -1,7 +1,8 @@
 //! Contacts on a GPU: agreement with the processor, time and memory. Run by `benches/gpu/device.sh`, which
 //! takes the program to a machine with a device.
 //!
-//! Arguments are the parts to run: `agree`, `periodic`, `free`, `pass`, `challenge`; all without one.
+//! Arguments are the parts to run: `agree`, `periodic`, `free`, `pass`, `challenge`; all without one. `steps` counts on the
+//! processor, and needs no device.
 
 #![expect(clippy::print_stdout, reason = "a measurement prints its result")]
 
@@ -29,6 +30,9 @@ type Part<'a> = (&'a str, &'a dyn Fn(&asperity_gpu::Device) -> Outcome);
 
 fn main() -> Outcome {
     let asked: Vec<String> = std::env::args().skip(1).filter(|arg| !arg.starts_with("--")).collect();
+    if asked == ["steps"] {
+        return steps();
+    }
     let wanted = |part: &str| asked.is_empty() || asked.iter().any(|each| each == part);
     let device = asperity_gpu::Device::cuda()?;
     let card = device.card()?.expect("a GPU has a card");
@@ -221,6 +225,27 @@ fn periodic(device: &asperity_gpu::Device) -> Outcome {
                 found.bytes_a_cell,
             );
         }
+    }
+    Ok(())
+}
+
+/// Steps and convolutions of periodic contacts, in the plain loops of the processor.
+fn steps() -> Outcome {
+    println!(
+        "| grid | steps and convolutions at {}, {}, {} |",
+        PRESSURES[0].1, PRESSURES[1].1, PRESSURES[2].1
+    );
+    println!("|---|---|");
+    for side in [512usize, 1024, 2048] {
+        print!("| {side}² |");
+        for (pressure, _) in PRESSURES {
+            let accuracy = accuracy(Precision::Double, TOLERANCE);
+            let grids = levels(side, 1.0, MODULUS);
+            let host = asperity_gpu::Device::HOST;
+            let found = host.press(&on_device(side), &grids, pressure * MODULUS, &accuracy, (1.0, 1), &())?;
+            print!(" {}, {:.0};", found.cost.iterations, found.cost.convolutions);
+        }
+        println!(" |");
     }
     Ok(())
 }

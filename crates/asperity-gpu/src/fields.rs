@@ -104,6 +104,9 @@ pub(crate) trait Fields {
     /// its squares, the sum of the squared violations of the bounds, and the largest residual.
     fn advance(&mut self, step: f64, datum: Metre) -> Result<[f64; 3]>;
 
+    /// Adapts the preconditioner to the predicted sets, which have so many `free` cells.
+    fn adapt(&mut self, free: f64) -> Result<()>;
+
     /// Replaces the residual r in the buffer by the preconditioned one, z = M r. Returns Σ z, Σ r and Σ r z
     /// over the free cells.
     fn precondition(&mut self, datum: Metre) -> Result<[f64; 3]>;

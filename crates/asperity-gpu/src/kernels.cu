@@ -10,6 +10,7 @@ struct Contacts {
     const place* first;
     const place* padded;
     const int* length;
+    const int* around; // contact, row in it, and the rows 2 before, 1 before, 1 after and 2 after; -1 without such a row
     int rows;
     state* pressure;
     state* touch; // h + u
@@ -19,6 +20,7 @@ struct Contacts {
     double cap;
     float* direction;
     unsigned char* set;
+    unsigned char* pattern; // which of the causal neighbours of a free cell are free
 };
 
 enum { FREE = 0, LOWER = 1, UPPER = 2 };
@@ -252,6 +254,149 @@ __global__ void products(Contacts f, const float* buffer, double datum, double* 
         }
     END
     MERGE(3, 3);
+}
+
+// The preconditioner on the free cells, see nodes.rs and the sparse inverse of the processor.
+
+#define NEIGHBOURS 6
+#define MEMBERS (NEIGHBOURS + 1)
+__constant__ int CAUSAL[NEIGHBOURS][2] = {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {-2, 0}, {0, -2}};
+
+// The flat cell and the place in the buffer of the cell `sign` times a causal neighbour away; whether there is one. Columns
+// `wrap` if they are periodic.
+__device__ bool neighbour(const Contacts& f, int row, int j, int k, int sign, int wrap, place* c, place* b) {
+    const int rows = sign * CAUSAL[k][0];
+    const int other = rows == 0 ? row : f.around[6 * row + (rows < 0 ? 4 : 3) + rows];
+    int column = j + sign * CAUSAL[k][1];
+    if (other < 0) return false;
+    const int length = f.length[other];
+    if (column < 0 || column >= length) {
+        if (!wrap) return false;
+        column += column < 0 ? length : -length;
+    }
+    *c = f.first[other] + column;
+    *b = f.padded[other] + column;
+    return true;
+}
+
+__global__ void patterns(Contacts f, int wrap) {
+    CELLS
+        unsigned char pattern = 0;
+        place other, at;
+        if (f.set[c] == FREE)
+            for (int k = 0; k < NEIGHBOURS; k++)
+                if (neighbour(f, row, j, k, 1, wrap, &other, &at) && f.set[other] == FREE) pattern |= 1 << k;
+        f.pattern[c] = pattern;
+    END
+}
+
+// The image under G: a row of `inverse` for each pattern.
+__global__ void to_factor(Contacts f, const float* buffer, float* image, const float* inverse, int wrap) {
+    CELLS
+        float product = 0;
+        place other, at;
+        if (f.set[c] == FREE) {
+            const float* g = inverse + MEMBERS * f.pattern[c];
+            product = g[NEIGHBOURS] * buffer[b];
+            for (int k = 0; k < NEIGHBOURS; k++)
+                if (f.pattern[c] >> k & 1 && neighbour(f, row, j, k, 1, wrap, &other, &at)) product += g[k] * buffer[at];
+        }
+        image[c] = product;
+    END
+}
+
+// The image under the transpose of G.
+__global__ void from_factor(Contacts f, float* buffer, const float* image, const float* inverse, int wrap) {
+    CELLS
+        float z = 0;
+        place other, at;
+        if (f.set[c] == FREE) {
+            z = inverse[MEMBERS * f.pattern[c] + NEIGHBOURS] * image[c];
+            for (int k = 0; k < NEIGHBOURS; k++)
+                if (neighbour(f, row, j, k, -1, wrap, &other, &at) && f.pattern[other] >> k & 1)
+                    z += inverse[MEMBERS * f.pattern[other] + k] * image[other];
+        }
+        buffer[b] = z;
+    END
+}
+
+// Nodes over the padded cells of each contact, row by row.
+struct Nodes {
+    const int* shapes; // rows and columns of each contact
+    const int* starts; // the row at which each contact begins
+    int contacts;
+    int rows, columns; // of nodes
+    int stride; // values from a row of nodes to the next
+    int width; // columns of the widest contact
+    double spacing[2]; // cells between two nodes
+    float* lines; // for each row of nodes, a sum over the cells of each column
+    float* weight;
+    float* restricted;
+    float* solved;
+};
+
+// Position of a cell along an axis, in nodes.
+__device__ double position(int cell, double spacing) { return (cell + 0.5) / spacing - 0.5; }
+
+// Adds the values of the cells along an axis, each by its share of a node. The images of the node count as itself.
+#define ON_NODE(sum, node, nodes, spacing, cells, cell, value)                                     \
+    for (int image = (node) - (nodes); image <= (node) + (nodes); image += (nodes)) {              \
+        const int from = (int)floor((image - 0.5) * (spacing)), to = (int)ceil((image + 1.5) * (spacing)); \
+        for (int cell = from < 0 ? 0 : from; cell < to && cell < (cells); cell++) {                \
+            const double share = 1 - fabs(position(cell, spacing) - image);                        \
+            if (share > 0) sum += share * (value);                                                 \
+        }                                                                                          \
+    }
+
+// Sums along x of the values of the free cells in the buffer; without a buffer, of 1 for each free cell.
+__global__ void sum_lines(Contacts f, const float* buffer, Nodes n) {
+    for (int at = blockIdx.x; at < n.contacts * n.rows; at += gridDim.x) {
+        const int contact = at / n.rows, node = at % n.rows, start = n.starts[contact];
+        for (int j = threadIdx.x; j < n.shapes[2 * contact + 1]; j += blockDim.x) {
+            double sum = 0;
+            ON_NODE(sum, node, n.rows, n.spacing[0], n.shapes[2 * contact], i,
+                    buffer ? (double)buffer[f.padded[start + i] + j] : (f.set[f.first[start + i] + j] == FREE ? 1.0 : 0.0))
+            n.lines[(place)at * n.width + j] = sum;
+        }
+    }
+}
+
+// Executes what follows, up to END_NODES, for each node `c`, with the `sum` of the values of its cells by their shares.
+#define ON_NODES                                                                                   \
+    for (int at = blockIdx.x; at < n.contacts * n.rows; at += gridDim.x)                           \
+        for (int node = threadIdx.x; node < n.columns; node += blockDim.x) {                       \
+            const place c = (place)at * n.stride + node;                                           \
+            double sum = 0;                                                                        \
+            ON_NODE(sum, node, n.columns, n.spacing[1], n.shapes[2 * (at / n.rows) + 1], j, n.lines[(place)at * n.width + j])
+#define END_NODES }
+
+__global__ void set_weight(Nodes n, double least) {
+    ON_NODES n.weight[c] = 1 / (sum / (n.spacing[0] * n.spacing[1]) + least); END_NODES
+}
+
+__global__ void set_restricted(Nodes n) {
+    ON_NODES n.restricted[c] = n.solved[c] = n.weight[c] * sum; END_NODES
+}
+
+__global__ void set_solved(Nodes n) {
+    ON_NODES n.solved[c] = n.weight[c] * (n.solved[c] - sum / (n.spacing[0] * n.spacing[1])); END_NODES
+}
+
+// Adds the interpolated restricted residual, or the solution of the nodes, times a factor to the free cells.
+__global__ void interpolate(Contacts f, float* buffer, Nodes n, int solved, double factor) {
+    CELLS
+        if (f.set[c] == FREE) {
+            const double x = position(f.around[6 * row + 1], n.spacing[0]), y = position(j, n.spacing[1]);
+            const int i = (int)floor(x), k = (int)floor(y);
+            const double s = x - i, t = y - k;
+            const float* nodes = (solved ? n.solved : n.restricted) + (place)f.around[6 * row] * n.rows * n.stride;
+            const float* one = nodes + (place)((i + n.rows) % n.rows) * n.stride;
+            const float* two = nodes + (place)((i + 1) % n.rows) * n.stride;
+            const int left = (k + n.columns) % n.columns, right = (k + 1) % n.columns;
+            const double value = (1 - s) * ((1 - t) * one[left] + t * one[right]) + s * ((1 - t) * two[left] + t * two[right]);
+            buffer[b] += factor * value;
+        }
+    END
 }
 
 __global__ void direct(Contacts f, float* buffer, double mean, double beta) {

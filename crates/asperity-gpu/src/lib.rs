@@ -8,6 +8,7 @@ mod cuda;
 mod device;
 mod fields;
 mod host;
+mod nodes;
 mod problem;
 mod solver;
 mod waves;

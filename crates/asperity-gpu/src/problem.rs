@@ -70,7 +70,7 @@ pub struct Level {
     pub pitch: [Metre; 2],
     /// The displacement under pressure.
     pub compliance: Compliance,
-    /// The displacement of harmonics, whose inverse is the preconditioner.
+    /// The displacement of harmonics, whose inverse is the stiffness of long waves in the preconditioner.
     pub harmonics: Harmonics,
 }
 
@@ -179,22 +179,6 @@ impl Level {
         match &self.harmonics {
             Harmonics::HalfSpaces(modulus) => 2.0 / (modulus * TAU / self.pitch[0]),
             Harmonics::Table(table) => table[[0, 0]],
-        }
-    }
-
-    /// Returns the factor of the preconditioner for a uniform pressure, which has no wavenumber: that of half
-    /// of the longest wave.
-    pub(crate) fn stiffness_at_zero(&self) -> f64 {
-        0.5 / match &self.harmonics {
-            Harmonics::HalfSpaces(modulus) => {
-                let [x, y] = self.wavenumbers();
-                2.0 / (modulus * x.min(y))
-            }
-            Harmonics::Table(table) => {
-                let [rows, columns] = [table.nrows(), table.ncols()];
-                let along = |cell: [usize; 2]| table.get(cell).copied().unwrap_or(0.0);
-                along([1.min(rows - 1), 0]).max(along([0, 1.min(columns - 1)]))
-            }
         }
     }
 }

@@ -1,8 +1,8 @@
 //! The iteration: preconditioned conjugate gradients on predicted active sets.
 //!
 //! It is the active set of the processor's solver, of operations that a device does well: transforms,
-//! operations cell by cell, and sums. The preconditioner is the inverse of the displacement of harmonics,
-//! restricted to the free cells.
+//! operations cell by cell, and sums. The preconditioner is that of the
+//! processor's solver, which has no transforms of the whole grid.
 
 use asperity_base::error::{Error, Result, check};
 use asperity_base::math::active_set::{
@@ -236,6 +236,7 @@ impl<'a, F: Fields> Iteration<'a, F> {
 
     /// Performs conjugate gradients on the free cells until the violation of the bounds exceeds the residual.
     fn conjugate_gradients(&mut self, state: State, wanted: f64) -> Result<Left> {
+        self.fields.adapt(self.free_cells)?;
         let sum = self.fields.reset_direction()?;
         let mut datum = match self.control {
             Control::Approach(approach) => approach,
@@ -248,7 +249,6 @@ impl<'a, F: Fields> Iteration<'a, F> {
                 break;
             }
             let [sum, drift, product] = self.fields.precondition(datum)?;
-            self.convolutions += 1;
             let mean = self.mean(sum);
             let product = product - mean * drift;
             let beta = product / product_before;

@@ -108,8 +108,8 @@ fn random_contacts_agree_with_those_of_the_processor() {
             found.residual
         );
     }
-    // Residuals that are preconditioned count, too; the processor does that without transforms.
-    assert!(convolutions[0] < 4.0 * convolutions[1], "{convolutions:?}");
+    // The processor, which moves its free cells with those that go to bounds, needs a little fewer.
+    assert!(convolutions[0] < 1.6 * convolutions[1], "{convolutions:?}");
 }
 
 #[test]

@@ -22,8 +22,8 @@ pub enum Device {
     /// The processor.
     #[default]
     Cpu,
-    /// A GPU of NVIDIA, by an active set with a preconditioner of harmonics. The program needs the feature
-    /// `cuda`, and the machine the driver, NVRTC and cuFFT.
+    /// A GPU of NVIDIA, by the active set of the processor. The program needs the feature `cuda`, and the
+    /// machine the driver, NVRTC and cuFFT.
     Cuda,
     /// The solver of the GPU in plain loops on the processor, its reference. It is slow, and needs no device.
     Host,
@@ -87,7 +87,7 @@ pub fn memory_on_device(shapes: &[[usize; 2]], boundary: Boundary, coated: bool,
     let largest = [0, 1].map(|axis| shapes.iter().map(|shape| shape[axis]).max().expect("a contact"));
     let [px, py] = boundary.padded(largest);
     let padded = (shapes.len() * px * (py + 2)) as f64;
-    let tables = if coated { 2 } else { usize::from(!boundary.leaves_mean_free()) };
+    let tables = usize::from(coated || !boundary.leaves_mean_free());
     asperity_gpu::memory(cells as f64, padded, caps_differ, tables, Precision::Double)
 }
 

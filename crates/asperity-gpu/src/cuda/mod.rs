@@ -1,8 +1,10 @@
-//! GPUs of NVIDIA. It is the only file with unsafe code: it calls the driver, NVRTC and cuFFT, which are
+//! GPUs of NVIDIA. This is the only file with unsafe code: it calls the driver, NVRTC and cuFFT, which are
 //! loaded when a device is opened.
 //!
 //! All work is in one stream, in order. Each kernel runs on a fixed number of blocks, which merge their sums
 //! in a fixed order, so that results do not depend on the run.
+
+mod preconditioner;
 
 use std::collections::BTreeMap;
 use std::ffi::c_void;
@@ -12,6 +14,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, flat, in_rows};
+use asperity_base::math::SparseInverse;
 use asperity_base::units::{Metre, Pascal};
 use cudarc::cufft::{result as fft, sys as fft_sys};
 use cudarc::driver::{CudaContext, CudaFunction, DriverError, result as driver, sys as driver_sys};
@@ -21,11 +24,12 @@ use crate::card::Card;
 use crate::fields::{Device, Fields};
 use crate::problem::{Compliance, Contact, Harmonics, Level, Precision, Rough};
 use crate::waves::Waves;
+use preconditioner::Preconditioner;
 
 /// The kernels.
-const KERNELS: &str = include_str!("kernels.cu");
+const KERNELS: &str = include_str!("../kernels.cu");
 /// Names of the kernels.
-const NAMES: [&str; 39] = [
+const NAMES: [&str; 47] = [
     "accept",
     "add_to_free",
     "advance",
@@ -38,13 +42,16 @@ const NAMES: [&str; 39] = [
     "descent",
     "direct",
     "direct_to_bounds",
+    "from_factor",
     "gap_below",
     "histogram",
+    "interpolate",
     "load_pressure",
     "merge_blocks",
     "multiplier",
     "multiply",
     "multiply_single",
+    "patterns",
     "predict_sets",
     "pressure_sum",
     "products",
@@ -54,15 +61,20 @@ const NAMES: [&str; 39] = [
     "residual",
     "response",
     "scale_below",
+    "set_restricted",
+    "set_solved",
     "set_uniform",
     "set_waves",
+    "set_weight",
     "spread_influence",
     "statistics",
     "step_along_gap",
     "step_from_kept",
+    "sum_lines",
     "summit",
     "take_spectrum",
     "take_touch",
+    "to_factor",
     "touch_sum",
     "wave_sums",
 ];
@@ -396,15 +408,8 @@ impl Device for Cuda {
             BLOCKS,
             &[arg(&buffer.at), arg(&waves), arg(&side), arg(&factor)],
         )?;
-        // SAFETY: the area is as large as the plan asked for; the plan is for the buffer in place, of this
-        // precision.
-        let done = unsafe {
-            fft::set_work_area(plan.handle, work.at as *mut c_void).and_then(|()| match precision {
-                Precision::Double => fft::exec_z2d(plan.handle, buffer.at as *mut _, buffer.at as *mut _),
-                Precision::Single => fft::exec_c2r(plan.handle, buffer.at as *mut _, buffer.at as *mut _),
-            })
-        };
-        self.checked(done)?;
+        plan.work_in(self, &work)?;
+        plan.transform(self, &buffer)?;
         let width = stride as i32;
         self.launch(&kernels, "summit", BLOCKS, &[arg(&buffer.at), arg(&side), arg(&width), arg(&parts.at)])?;
         let summit = merged(0)?;
@@ -512,6 +517,7 @@ struct Arguments {
     first: u64,
     padded: u64,
     length: u64,
+    around: u64,
     rows: i32,
     pressure: u64,
     touch: u64,
@@ -521,6 +527,7 @@ struct Arguments {
     cap: f64,
     direction: u64,
     set: u64,
+    pattern: u64,
 }
 
 /// The structure `Spectrum` of the kernels.
@@ -552,7 +559,7 @@ struct Transforms {
 }
 
 /// Number of plans that are kept for later contacts: those of a cascade up to 32768², in double precision.
-const KEPT_PLANS: usize = 44;
+const KEPT_PLANS: usize = 66;
 
 impl Cuda {
     /// Returns a plan, one that was given back if there is one.
@@ -616,6 +623,33 @@ impl Plan {
         })?;
         Ok(plan)
     }
+
+    /// Sets the work area, which must outlive the next transforms.
+    fn work_in(&self, cuda: &Cuda, area: &Memory) -> Result<()> {
+        assert!(area.bytes >= self.work, "as large an area as the plan asks for");
+        // SAFETY: the area is as large as the plan asks for, and whoever transforms by the plan has both.
+        cuda.checked(unsafe { fft::set_work_area(self.handle, area.at as *mut c_void) })
+    }
+
+    /// Transforms a buffer in place.
+    fn transform(&self, cuda: &Cuda, buffer: &Memory) -> Result<()> {
+        use fft_sys::cufftType_t::{CUFFT_C2R, CUFFT_D2Z, CUFFT_R2C};
+        let Transforms { kind, shape: [rows, columns], count } = self.of;
+        let number = if matches!(kind, CUFFT_R2C | CUFFT_C2R) { 4 } else { 8 };
+        assert!(count * rows * 2 * (columns / 2 + 1) * number <= buffer.bytes, "within the buffer");
+        cuda.bind()?;
+        let (handle, at) = (self.handle, buffer.at);
+        // SAFETY: the plan is for buffers of this size, in place, in this precision and direction.
+        let done = unsafe {
+            match kind {
+                CUFFT_R2C => fft::exec_r2c(handle, at as *mut _, at as *mut _),
+                CUFFT_C2R => fft::exec_c2r(handle, at as *mut _, at as *mut _),
+                CUFFT_D2Z => fft::exec_d2z(handle, at as *mut _, at as *mut _),
+                _ => fft::exec_z2d(handle, at as *mut _, at as *mut _),
+            }
+        };
+        cuda.checked(done)
+    }
 }
 
 /// The fields of all contacts.
@@ -625,8 +659,8 @@ pub(crate) struct CudaFields {
     layout: Layout,
     precision: Precision,
     rows: i32,
-    /// Tables of the rows: first cell, first value in the buffer, length.
-    tables: [Memory; 3],
+    /// Tables of the rows: first cell, first value in the buffer, length, and the rows around.
+    tables: [Memory; 4],
     shapes: Memory,
     padded: [usize; 2],
     /// Whether the buffer has values outside of the contacts.
@@ -639,6 +673,7 @@ pub(crate) struct CudaFields {
     kept: Memory,
     direction: Memory,
     set: Memory,
+    pattern: Memory,
     buffer: Memory,
     work: Memory,
     /// Plans in single precision, there and back, and those in double precision if that is the precision of
@@ -647,8 +682,8 @@ pub(crate) struct CudaFields {
     parts: Memory,
     results: Memory,
     compliance: Spectrum,
-    stiffness: Spectrum,
     spectra: Vec<Memory>,
+    preconditioner: Preconditioner,
     self_influence: f64,
     bounds: [Pascal; 2],
 }
@@ -664,6 +699,7 @@ impl CudaFields {
             cuda.copy_of(&layout.rows(|row| row.first))?,
             cuda.copy_of(&layout.rows(padded))?,
             cuda.copy_of(&layout.rows(|row| row.length as i32))?,
+            cuda.copy_of(&layout.rows(|row| around(&layout, level, row)))?,
         ];
         let shapes: Vec<i32> = layout.shapes.iter().flatten().map(|n| *n as i32).collect();
         use fft_sys::cufftType_t::{CUFFT_C2R, CUFFT_D2Z, CUFFT_R2C, CUFFT_Z2D};
@@ -677,9 +713,7 @@ impl CudaFields {
         let plans: Vec<Plan> = kinds.iter().map(plan).collect::<Result<_>>()?;
         let work = cuda.memory(plans.iter().map(|plan| plan.work).max().unwrap_or(0))?;
         for plan in &plans {
-            // SAFETY: the area is as large as the largest that a plan asked for, and lives as long as the
-            // fields, which alone use the plans meanwhile.
-            cuda.checked(unsafe { fft::set_work_area(plan.handle, work.at as *mut c_void) })?;
+            plan.work_in(cuda, &work)?;
         }
         let state = || cuda.memory(cells * bytes(precision));
         let mut fields = Self {
@@ -697,13 +731,14 @@ impl CudaFields {
             kept: state()?,
             direction: cuda.memory(4 * cells)?,
             set: cuda.memory(cells)?,
+            pattern: cuda.memory(cells)?,
             buffer: cuda.memory(contacts * rows * stride * bytes(precision))?,
+            preconditioner: Preconditioner::new(cuda, &layout, level, precision, &work)?,
             work,
             plans,
             parts: cuda.memory(BLOCKS as usize * PARTS * 8)?,
             results: cuda.memory(PARTS * 8)?,
             compliance: waves(level, true),
-            stiffness: waves(level, false),
             spectra: Vec::new(),
             self_influence: 0.0,
             bounds: [0.0; 2],
@@ -716,6 +751,7 @@ impl CudaFields {
         fields.buffer.set_state(0, &[1.0], precision)?;
         fields.filter(fields.compliance, false)?;
         fields.self_influence = level.self_influence(fields.buffer.read_state(0, 1, precision)?[0]);
+        fields.take_inverse(level)?;
         fields.bounds = fields.sums("bounds", 1, &[])?;
         Ok(fields)
     }
@@ -724,14 +760,6 @@ impl CudaFields {
     fn take_tables(&mut self, level: &Level) -> Result<()> {
         let [rows, columns] = self.padded;
         let half = columns / 2 + 1;
-        if let Harmonics::Table(table) = &level.harmonics {
-            let inverse =
-                |(at, value): (usize, &f64)| if at == 0 { level.stiffness_at_zero() } else { 1.0 / value };
-            let stiffness: Vec<f64> = flat(&in_rows(table)).iter().enumerate().map(inverse).collect();
-            let stiffness = self.cuda.state_of(&stiffness, self.precision)?;
-            self.stiffness.table = stiffness.at;
-            self.spectra.push(stiffness);
-        }
         match (&level.compliance, &level.harmonics) {
             (Compliance::Influence(influence), _) => {
                 let influence = self.cuda.state_of(flat(&in_rows(influence)), self.precision)?;
@@ -761,11 +789,24 @@ impl CudaFields {
         Ok(())
     }
 
+    /// Places the sparse inverse on the device, from the displacement under a unit pressure on the first cell,
+    /// which is in the buffer.
+    fn take_inverse(&mut self, level: &Level) -> Result<()> {
+        let [rows, columns] = self.padded;
+        let stride = 2 * (columns / 2 + 1);
+        let row = |i: usize| self.buffer.read_state(i * stride, columns, self.precision);
+        let near: Vec<Vec<f64>> = (0..rows.min(SparseInverse::REACH[0])).map(row).collect::<Result<_>>()?;
+        let far = row(rows / 2)?;
+        let influence = |i: usize, j: usize| near.get(i).unwrap_or(&far)[j];
+        self.preconditioner.take(&self.cuda, level.sparse_inverse(self.padded, influence).rows())
+    }
+
     fn arguments(&self) -> Arguments {
         Arguments {
             first: self.tables[0].at,
             padded: self.tables[1].at,
             length: self.tables[2].at,
+            around: self.tables[3].at,
             rows: self.rows,
             pressure: self.pressure.at,
             touch: self.touch.at,
@@ -775,6 +816,7 @@ impl CudaFields {
             cap: self.cap,
             direction: self.direction.at,
             set: self.set.at,
+            pattern: self.pattern.at,
         }
     }
 
@@ -811,20 +853,8 @@ impl CudaFields {
 
     /// Transforms the buffer in place, there or back, in single precision or in that of the pressure.
     fn transform(&self, there: bool, single: bool) -> Result<()> {
-        self.cuda.bind()?;
-        let at = self.buffer.at;
         let first = if single || self.precision == Precision::Single { 0 } else { 2 };
-        let handle = self.plans[first + usize::from(!there)].handle;
-        // SAFETY: the plans are for the buffer in place, in this order of precisions and directions.
-        let done = unsafe {
-            match (first, there) {
-                (0, true) => fft::exec_r2c(handle, at as *mut _, at as *mut _),
-                (0, false) => fft::exec_c2r(handle, at as *mut _, at as *mut _),
-                (_, true) => fft::exec_d2z(handle, at as *mut _, at as *mut _),
-                (_, false) => fft::exec_z2d(handle, at as *mut _, at as *mut _),
-            }
-        };
-        self.cuda.checked(done)
+        self.plans[first + usize::from(!there)].transform(&self.cuda, &self.buffer)
     }
 
     /// Multiplies the transforms of the buffer, in single precision or in that of the pressure.
@@ -848,20 +878,36 @@ impl CudaFields {
     }
 }
 
-/// Returns the factors of half-spaces: of the displacement, or of the preconditioner.
+/// Returns the factors of half-spaces: of the displacement, or of the stiffness.
 fn waves(level: &Level, displacement: bool) -> Spectrum {
     let modulus = match level.harmonics {
         Harmonics::HalfSpaces(modulus) => modulus,
         Harmonics::Table(_) => 0.0,
     };
-    let (constant, at_zero) =
-        if displacement { (2.0 / modulus, 0.0) } else { (0.5 * modulus, level.stiffness_at_zero()) };
-    Spectrum { table: 0, constant, at_zero, unit: level.wavenumbers(), inverse: i32::from(displacement) }
+    let constant = if displacement { 2.0 / modulus } else { 0.5 * modulus };
+    Spectrum { table: 0, constant, at_zero: 0.0, unit: level.wavenumbers(), inverse: i32::from(displacement) }
+}
+
+/// Returns the contact of a row, its place in the contact, and the rows 2 and 1 before and 1 and 2 after it;
+/// −1 without such a row.
+fn around(layout: &Layout, level: &Level, Row { contact, row, .. }: Row) -> [i32; 6] {
+    let above: usize = layout.shapes[..contact].iter().map(|[rows, _]| rows).sum();
+    let rows = layout.shapes[contact][0] as isize;
+    let [wraps, _] = level.wraps(layout.shapes[contact]);
+    let at = |distance: isize| {
+        let other = row as isize + distance;
+        match other {
+            other if (0..rows).contains(&other) => (above as isize + other) as i32,
+            other if wraps => (above as isize + other.rem_euclid(rows)) as i32,
+            _ => -1,
+        }
+    };
+    [contact as i32, row as i32, at(-2), at(-1), at(1), at(2)]
 }
 
 impl Drop for CudaFields {
     fn drop(&mut self) {
-        self.cuda.keep_plans(self.plans.drain(..));
+        self.cuda.keep_plans(self.plans.drain(..).chain(self.preconditioner.plans()));
     }
 }
 
@@ -945,8 +991,13 @@ impl Fields for CudaFields {
         self.sums("advance", 2, &[arg(&self.buffer.at), arg(&step), arg(&datum), arg(&self.self_influence)])
     }
 
+    fn adapt(&mut self, free: f64) -> Result<()> {
+        self.preconditioner.set_mean(free, self.cells() as f64)?;
+        self.preconditioner.adapt(self)
+    }
+
     fn precondition(&mut self, datum: Metre) -> Result<[f64; 3]> {
-        self.filter(self.stiffness, true)?;
+        self.preconditioner.apply(self)?;
         self.sums("products", 3, &[arg(&self.buffer.at), arg(&datum)])
     }
 
@@ -1007,14 +1058,10 @@ impl Fields for CudaFields {
     }
 
     fn bytes(&self) -> usize {
-        let fields =
-            [&self.gap, &self.pressure, &self.touch, &self.kept, &self.direction, &self.set, &self.buffer];
-        let all = fields
-            .into_iter()
-            .chain(&self.upper)
-            .chain(&self.tables)
-            .chain(&self.spectra)
-            .chain([&self.work]);
+        let fields = [&self.gap, &self.pressure, &self.touch, &self.kept, &self.direction, &self.buffer];
+        let all = fields.into_iter().chain([&self.set, &self.pattern]).chain(self.preconditioner.memory());
+        let all =
+            all.into_iter().chain(&self.upper).chain(&self.tables).chain(&self.spectra).chain([&self.work]);
         all.map(|memory| memory.bytes).sum()
     }
 

@@ -1,5 +1,7 @@
 //! The processor in plain loops: the reference of the kernels, which needs no device.
 
+mod preconditioner;
+
 use asperity_base::error::Result;
 use asperity_base::grid::{CellValues, Field, coarse_means, in_rows};
 use asperity_base::math::fft::RealFft2;
@@ -10,6 +12,7 @@ use ndarray::Array2;
 use crate::fields::{Device, Fields};
 use crate::problem::{Compliance, Contact, Harmonics, Level, Precision, Rough};
 use crate::waves::Waves;
+use preconditioner::Preconditioner;
 
 /// The processor.
 pub(crate) struct Host;
@@ -40,9 +43,9 @@ pub(crate) struct HostFields {
     set: Vec<Set>,
     buffer: Vec<f64>,
     transform: RealFft2,
-    /// The factors of the displacement and of the preconditioner: `[k, l]`, with all k and half of l.
+    /// The factors of the displacement: `[k, l]`, with all k and half of l.
     compliance: Field,
-    stiffness: Field,
+    preconditioner: Preconditioner,
     self_influence: f64,
 }
 
@@ -92,7 +95,10 @@ impl Device for Host {
         let upper = gaps.iter().zip(&uppers);
         let upper = upper.flat_map(|(gap, upper)| (0..gap.len()).map(|cell| upper.value(cell))).collect();
         let transform = RealFft2::new(level.padded);
-        let mut fields = HostFields {
+        let compliance = compliance(level, &transform);
+        let influence = influence(level, &transform, &compliance);
+        let preconditioner = Preconditioner::new(level, &shapes, |i, j| influence[[i, j]]);
+        Ok(HostFields {
             shapes,
             pressure: vec![0.0; cells],
             touch: vec![0.0; cells],
@@ -102,16 +108,11 @@ impl Device for Host {
             direction: vec![0.0; cells],
             set: vec![Set::Free; cells],
             buffer: vec![0.0; cells],
-            compliance: compliance(level, &transform),
-            stiffness: stiffness(level),
             transform,
-            self_influence: 0.0,
-        };
-        fields.pressure[0] = 1.0;
-        fields.buffer.copy_from_slice(&fields.pressure);
-        fields.filter(|fields| &fields.compliance);
-        fields.self_influence = level.self_influence(fields.buffer[0]);
-        Ok(fields)
+            compliance,
+            preconditioner,
+            self_influence: level.self_influence(influence[[0, 0]]),
+        })
     }
 
     fn pressure_of(&self, fields: HostFields) -> Result<Vec<Field>> {
@@ -149,10 +150,13 @@ fn compliance(level: &Level, transform: &RealFft2) -> Field {
     }
 }
 
-fn stiffness(level: &Level) -> Field {
-    mirrored(level.padded, |k, l| {
-        if [k, l] == [0, 0] { level.stiffness_at_zero() } else { 1.0 / harmonic(level, [k, l]) }
-    })
+/// Displacement of the padded cells per unit pressure on the first one.
+fn influence(level: &Level, transform: &RealFft2, compliance: &Field) -> Field {
+    let mut unit = Field::zeros(level.padded);
+    unit[[0, 0]] = 1.0;
+    let mut waves = transform.forward(&unit);
+    waves.zip_mut_with(compliance, |wave, factor| *wave *= *factor);
+    transform.inverse_leading(&waves, level.padded)
 }
 
 fn harmonic(level: &Level, bins: [usize; 2]) -> f64 {
@@ -374,8 +378,13 @@ impl Fields for HostFields {
         Ok(sums)
     }
 
+    fn adapt(&mut self, free: f64) -> Result<()> {
+        self.preconditioner.adapt(&self.set, free);
+        Ok(())
+    }
+
     fn precondition(&mut self, datum: Metre) -> Result<[f64; 3]> {
-        self.filter_in_single(|fields| &fields.stiffness);
+        self.preconditioner.apply(&self.set, &mut self.buffer);
         let mut sums = [0.0; 3];
         for cell in self.free() {
             let (z, r) = (self.buffer[cell], datum - self.touch[cell]);
