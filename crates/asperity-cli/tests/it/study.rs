@@ -410,6 +410,23 @@ fn bad_usage_of_study_is_told() {
 }
 
 #[test]
+fn a_bad_value_of_an_axis_is_shown_where_it_stands() {
+    let layers = "layers = [{ thickness = \"1 um\", young = \"300 GPa\", poisson = 0.3 }, { thickness = \"2 um\", young = \"400 GPa\", poisson = 0.3 }]";
+    let told = |axes_of: &str| {
+        let folder = folder_with(&axes(axes_of));
+        let layered = case().replace("[upper]\n", &format!("[upper]\n{layers}\n"));
+        fs::write(folder.path().join("case.toml"), layered).unwrap();
+        failed(&asperity(&folder, "study load.toml"), 2)
+    };
+    assert_has(&told("\"contact.load\" = [1, -2]"), "'load' is -2 … load.toml:3:22");
+    let thickness = "\"upper.layers.1.thickness\" = [\"1 um\", \"-2 um\"]";
+    assert_has(&told(thickness), "'thickness' is \"-2 um\" … load.toml:3:39");
+    // The message does not say which of two tables is meant.
+    let both = format!("{thickness}\n\"upper.layers.0.thickness\" = [\"1 um\"]");
+    assert_has(&told(&both), "'thickness' is \"-2 um\" … case.toml");
+}
+
+#[test]
 #[cfg(unix)]
 fn a_full_disk_ends_a_process_and_no_case() {
     let folder = folder_with(STUDY);

@@ -251,7 +251,15 @@ impl Study {
                 || beneath(key, axis)
                 || beneath(axis, key) && (is_element() || !self.file.base.has(key))
         };
-        match self.axes().iter().position(of_axis) {
+        // A table of a list is named without its number: the only axis that may be meant is.
+        let in_list =
+            |axis: &Axis| error.key.starts_with('[') && unnumbered(axis.key()) == unnumbered(&error.key);
+        let mut meant = (0..self.axes().len()).filter(|axis| in_list(&self.axes()[*axis]));
+        let only = match (meant.next(), meant.next()) {
+            (axis, None) => axis,
+            _ => None,
+        };
+        match self.axes().iter().position(of_axis).or(only) {
             Some(axis) => self.error_at(case, axis, &error.message, error.hint.clone()),
             None => self.file.base.error(error),
         }
@@ -272,6 +280,12 @@ impl Study {
 /// Whether a dotted key lies in a table.
 fn beneath(key: &str, table: &str) -> bool {
     key.strip_prefix(table).is_some_and(|rest| rest.starts_with('.'))
+}
+
+/// Returns a dotted key without the numbers and brackets of lists.
+fn unnumbered(key: &str) -> String {
+    let names = key.split('.').filter(|name| name.parse::<usize>().is_err());
+    names.map(|name| name.trim_matches(['[', ']'])).collect::<Vec<_>>().join(".")
 }
 
 /// Returns the indices of all cases that are not excluded.
