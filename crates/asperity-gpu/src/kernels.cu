@@ -325,7 +325,7 @@ struct Nodes {
     const int* shapes; // rows and columns of each contact
     const int* starts; // the row at which each contact begins
     int contacts;
-    int rows, columns; // of nodes
+    int rows, columns; // number of nodes along each axis
     int stride; // values from a row of nodes to the next
     int width; // columns of the widest contact
     double spacing[2]; // cells between two nodes

@@ -320,6 +320,17 @@ impl Layout {
         Self { shapes: self.shapes.iter().map(|shape| shape.map(|n| n.div_ceil(2))).collect() }
     }
 
+    /// Returns the row at which each contact begins.
+    fn first_rows(&self) -> Vec<i32> {
+        let mut next = 0;
+        let first = |[rows, _]: &[usize; 2]| {
+            let first = next;
+            next += *rows as i32;
+            first
+        };
+        self.shapes.iter().map(first).collect()
+    }
+
     /// Returns the flat cell at which each contact begins.
     fn starts(&self) -> Vec<u64> {
         let mut next = 0;
@@ -699,9 +710,10 @@ impl CudaFields {
             cuda.copy_of(&layout.rows(|row| row.first))?,
             cuda.copy_of(&layout.rows(padded))?,
             cuda.copy_of(&layout.rows(|row| row.length as i32))?,
-            cuda.copy_of(&layout.rows(|row| around(&layout, level, row)))?,
+            cuda.copy_of(&layout.rows(around(&layout, level)))?,
         ];
         let shapes: Vec<i32> = layout.shapes.iter().flatten().map(|n| *n as i32).collect();
+        let shapes = cuda.copy_of(&shapes)?;
         use fft_sys::cufftType_t::{CUFFT_C2R, CUFFT_D2Z, CUFFT_R2C, CUFFT_Z2D};
         let kinds: &[fft_sys::cufftType] = match precision {
             Precision::Double => &[CUFFT_R2C, CUFFT_C2R, CUFFT_D2Z, CUFFT_Z2D],
@@ -720,7 +732,8 @@ impl CudaFields {
             kernels: cuda.kernels(precision)?,
             rows: layout.height(),
             tables,
-            shapes: cuda.copy_of(&shapes)?,
+            preconditioner: Preconditioner::new(cuda, &layout, level, precision, [&shapes, &work])?,
+            shapes,
             padded: level.padded,
             has_outside: layout.shapes.iter().any(|shape| *shape != level.padded),
             gap,
@@ -733,7 +746,6 @@ impl CudaFields {
             set: cuda.memory(cells)?,
             pattern: cuda.memory(cells)?,
             buffer: cuda.memory(contacts * rows * stride * bytes(precision))?,
-            preconditioner: Preconditioner::new(cuda, &layout, level, precision, &work)?,
             work,
             plans,
             parts: cuda.memory(BLOCKS as usize * PARTS * 8)?,
@@ -890,19 +902,19 @@ fn waves(level: &Level, displacement: bool) -> Spectrum {
 
 /// Returns the contact of a row, its place in the contact, and the rows 2 and 1 before and 1 and 2 after it;
 /// −1 without such a row.
-fn around(layout: &Layout, level: &Level, Row { contact, row, .. }: Row) -> [i32; 6] {
-    let above: usize = layout.shapes[..contact].iter().map(|[rows, _]| rows).sum();
-    let rows = layout.shapes[contact][0] as isize;
-    let [wraps, _] = level.wraps(layout.shapes[contact]);
-    let at = |distance: isize| {
-        let other = row as isize + distance;
-        match other {
-            other if (0..rows).contains(&other) => (above as isize + other) as i32,
-            other if wraps => (above as isize + other.rem_euclid(rows)) as i32,
+fn around(layout: &Layout, level: &Level) -> impl Fn(Row) -> [i32; 6] {
+    let first_rows = layout.first_rows();
+    move |Row { contact, row, .. }| {
+        let shape = layout.shapes[contact];
+        let (rows, row) = (shape[0] as i32, row as i32);
+        let [wraps, _] = level.wraps(shape);
+        let at = |distance: i32| match row + distance {
+            other if (0..rows).contains(&other) => first_rows[contact] + other,
+            other if wraps => first_rows[contact] + other.rem_euclid(rows),
             _ => -1,
-        }
-    };
-    [contact as i32, row as i32, at(-2), at(-1), at(1), at(2)]
+        };
+        [contact as i32, row, at(-2), at(-1), at(1), at(2)]
+    }
 }
 
 impl Drop for CudaFields {

@@ -17,15 +17,14 @@ pub(super) struct Preconditioner {
     inverse: Memory,
     /// Whether the columns are periodic.
     wrap: i32,
-    /// Address of the image of the cells under the sparse inverse's factor, in the work area of the transforms
-    /// of the cells if that has room.
+    /// Address of the image of the residual under a factor of the sparse inverse.
     image: u64,
     /// Transforms of the nodes, there and back.
     plans: Vec<Plan>,
     stiffness: Spectrum,
     table: Option<Memory>,
     precision: Precision,
-    /// Work area of the transforms of the nodes, and all that the arguments point to.
+    /// Work area of the transforms of the nodes, and what the arguments point to besides the fields.
     memory: Vec<Memory>,
 }
 
@@ -48,14 +47,14 @@ struct Arguments {
 }
 
 impl Preconditioner {
-    /// Creates the preconditioner, without the sparse inverse. It has its scratch in the `work` area of the
-    /// transforms of the cells as far as that has room.
+    /// Creates the preconditioner, without the sparse inverse, from the shapes of the contacts on the device. It
+    /// has its scratch in the `work` area of the transforms of the cells as far as that has room.
     pub(super) fn new(
         cuda: &Cuda,
         layout: &Layout,
         level: &Level,
         precision: Precision,
-        work: &Memory,
+        [shapes, work]: [&Memory; 2],
     ) -> Result<Self> {
         let nodes = Nodes::new(level);
         let [rows, columns] = nodes.shape;
@@ -84,18 +83,10 @@ impl Preconditioner {
         let width = layout.shapes.iter().map(|[_, columns]| *columns).max().unwrap_or(0);
         let image = scratch(4 * layout.cells(), &mut keep)?;
         let lines = scratch(4 * contacts * rows * width, &mut keep)?;
-        let shapes: Vec<i32> = layout.shapes.iter().flatten().map(|n| *n as i32).collect();
-        let mut next = 0;
-        let start = |shape: &[usize; 2]| {
-            let start = next;
-            next += shape[0] as i32;
-            start
-        };
-        let starts: Vec<i32> = layout.shapes.iter().map(start).collect();
         let on_nodes = || cuda.memory(4 * contacts * rows * stride);
         let arguments = Arguments {
-            shapes: keep(cuda.copy_of(&shapes)?),
-            starts: keep(cuda.copy_of(&starts)?),
+            shapes: shapes.at,
+            starts: keep(cuda.copy_of(&layout.first_rows())?),
             contacts: contacts as i32,
             rows: rows as i32,
             columns: columns as i32,
